@@ -27,6 +27,7 @@ void LintJudge::judgeOrigin() {
 
 void LintJudge::judgeDepth() {
   const std::uint64_t pixels = counts_[kLintPixels];
+  const std::size_t before = found_.size();
   if (isMany(counts_[kLintDepthNegative], pixels)) {
     add({"depth-sign", "depth is negative on " + share(counts_[kLintDepthNegative], pixels, "pixels"),
          "z of view space, which is negative in front of the camera, is handed over as distance",
@@ -36,7 +37,7 @@ void LintJudge::judgeDepth() {
     add({"depth-empty", "depth is 0 on " + share(counts_[kLintDepthZero], pixels, "pixels") + " and nowhere a surface",
          "the depth image was not written, or is another one", "write depth before the denoiser runs"});
   }
-  if (pixels > 0 && counts_[kLintSurfaces] == 0 && found_.empty()) {
+  if (pixels > 0 && counts_[kLintSurfaces] == 0 && found_.size() == before) {
     add({"sky-only", "no pixel shows a surface: all depths are from the sky depth on, or not finite",
          "depth is in other units than the sky depth", "state a sky depth beyond the scene's farthest surface"});
   }

@@ -123,7 +123,10 @@ fg::Texture addSvgfAtrous(StageGraph graph, fg::Buffer frame, fg::Texture colour
   const std::vector<Kernel> kernels = kernelsOf(settings);
   if (settings.feedback > kernels.size()) {
     throw std::invalid_argument("svgf.feedback (" + std::to_string(settings.feedback) +
-                                ") must not exceed the number of iterations (" + std::to_string(kernels.size()) + ")");
+                                ") must not exceed the number of iterations (" + std::to_string(kernels.size()) + ")" +
+                                (settings.window == SvgfWindow::Full
+                                     ? ": svgf.window=full is one; lower svgf.feedback or set svgf.window=atrous"
+                                     : ""));
   }
   for (std::size_t i = 0; i < kernels.size(); ++i) {
     const std::string number = std::to_string(i);

@@ -314,6 +314,14 @@ Constants Description::constants(const FrameStatement& frame) const {
                                .lightOffset = checkedLightOffset(frame.lightOffset),
                                .previousLightOffset = glm::ivec2(lastLightOffset_),
                                .orthographic = conventions_.orthographic == VK_TRUE};
+  // Device depth is told from view depth by row z: [2][2] for an orthographic camera, [3][2] for a perspective one.
+  const glm::mat4& projection = description.projection;
+  const float scaled = conventions_.orthographic == VK_TRUE ? projection[2][2] : projection[3][2];
+  if (conventions_.depth == WALR_DEPTH_DEVICE && scaled == 0.0F) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "row z of the projection gives every depth the same device depth: give the matrix with which the depth "
+                "was rendered");
+  }
   if (!(frame.skyDepth >= 0.0F)) throw Error(WALR_ERROR_INVALID_ARGUMENT, "sky_depth is negative or NaN");
   if (frame.skyDepth > 0.0F) description.skyDepth = frame.skyDepth;
   return {.camera = description,

@@ -34,7 +34,11 @@ std::string sequenceKey(const std::string& setup, const NamedSequence& sequence,
     key.addFile(entry.file);
     if (!entry.reference.empty()) key.addFile(entry.reference);
     key.add(entry.resetHistory ? "reset" : "carried");
+    // A frame's number chooses its random numbers.
+    key.add(std::to_string(entry.number));
+    key.add(std::as_bytes(std::span(&entry.lightOffset, 1)));
     // The part of cameras.json that affects results.
+    key.add(std::as_bytes(std::span(&entry.camera.jitter, 1)));
     for (const glm::mat4* matrix : {&entry.camera.view, &entry.camera.previousView, &entry.camera.projection}) {
       key.add(std::as_bytes(std::span(matrix, 1)));
     }

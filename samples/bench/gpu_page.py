@@ -3,9 +3,9 @@
 PAGE_SIZES = ((1920, 1080), (2560, 1440), (3840, 2160))
 CONTENT = "scene"  # Paths traced, one a pixel; the report also has a synthetic content.
 # What a reader should know of a GPU, by its name.
-REMARKS = {"NVIDIA H200": """
-This is a GPU for servers: 132 multiprocessors and 60 MB of cache, which holds most textures of a frame of 1920 x 1080. GPUs of
-desktops have a quarter of that or less. For these, the largest size tells more: it gives every multiprocessor enough to do. The
+REMARKS = {"NVIDIA H100 80GB HBM3": """
+This is a GPU for servers: 132 multiprocessors of 128 lanes, and 50 MB of cache, which holds three textures of 8 bytes a texel at
+1920 x 1080. For GPUs with fewer multiprocessors, the largest size tells more: it gives every multiprocessor enough to do. The
 passes over blocks of `walr` have 32,640 threads at the smallest size, an eighth of what this GPU holds at a time: they wait
 for latency.
 """}

@@ -1,7 +1,5 @@
 #include "samples/bench/html_report.h"
 
-#include <span>
-
 #include "samples/bench/child_process.h"
 #include "samples/bench/report_scripts.h"
 #include "samples/image/file_output.h"
@@ -10,7 +8,7 @@ namespace walr {
 
 std::string writeHtmlReport(const std::filesystem::path& output, const std::string& python) {
   for (const ReportScript& script : kReportScripts) {
-    writeFileAtomically(output / script.file, std::as_bytes(std::span(script.text)));
+    writeFileAtomically(output / script.file, script.text);
   }
   const std::filesystem::path script = output / "report.py";
   const int code = runChild({python, script.string(), output.string()}, ChildOutput::Inherited).exitCode;

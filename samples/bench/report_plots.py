@@ -208,7 +208,7 @@ def sweep_figure(bench, names, labels):
             else:
                 values = [bench.error(sequence, n, metric) for n in names]
             values = [math.nan if v is None else v for v in values]
-            axis.plot(labels, values, "o-", ms=4, lw=1.2, color=SPARE_COLOURS[index % 5], label=sequence)
+            axis.plot(labels, values, "o-", ms=4, lw=1.2, color=SPARE_COLOURS[index % len(SPARE_COLOURS)], label=sequence)
             for i, name in enumerate(names):
                 if bench.variants[name]["is_default"]:
                     axis.plot(labels[i], values[i], "o", ms=9, mfc="none", color="black")

@@ -1,7 +1,6 @@
 #include "samples/bench/run_record.h"
 
 #include <fstream>
-#include <span>
 
 #include <nlohmann/json.hpp>
 
@@ -66,7 +65,7 @@ std::optional<RunRecord> RunStore::find(const std::string& sequence, const std::
 void RunStore::save(const std::string& sequence, const RunRecord& record, const std::string& key) const {
   prepareOutputDirectory(folder_ / sequence);
   const std::string text = Json{{"key", key}, {"run", toJson(record)}}.dump(1) + "\n";
-  writeFileAtomically(file(sequence, record.variant), std::as_bytes(std::span(text)));
+  writeFileAtomically(file(sequence, record.variant), text);
 }
 
 }  // namespace walr

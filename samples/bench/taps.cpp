@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "passes/flr_regression.h"
+#include "shaders/constants/antilag.h"
 #include "shaders/constants/block_regression.h"
 #include "shaders/constants/flr.h"
 #include "shaders/constants/guide_network.h"
@@ -87,6 +88,26 @@ double coarseLine(const Stage& stage) {
   return (2.0 * std::ceil(constants.coarseReach * constants.coarseSigma) + 1.0) * stage.share;
 }
 
+/// The pixel itself, and the four blocks and four cells around it. For the share of accumulated light also that light,
+/// the noisy light, and four texels each of the last frame's innovations, statistics and trust: a gather counts as
+/// four.
+double blockApply(const Stage& stage) {
+  const bool takesShare = stage.work.shader->name.find(".residual") != std::string_view::npos;
+  return 1.0 + 2.0 * kBilinear + (takesShare ? 2.0 + 3.0 * kBilinear : 0.0);
+}
+
+/// Workgroups share what they fetch: (8 + 2 R)^2 tiles for each of three sums over a window of radius R, and for the
+/// slope those around the tiles of antilag. Each thread fetches seven more values of the last frame. Tiles outside the
+/// image count, too.
+double residualStatistics(const Stage& stage) {
+  const auto square = [](std::uint32_t side) { return static_cast<double>(side) * side; };
+  const std::uint32_t group = stage.work.shader->localSize[0];
+  const std::uint32_t windows = 2 * specializationOf(stage, "kRadius");
+  const std::uint32_t spanned = (group - 1) * kAntilagTile / specializationOf(stage, "kTileSize") + 2;
+  const double taps = 3.0 * square(group + windows) + square(spanned + windows) + 7.0 * square(group);
+  return taps * stage.work.groups[0] * stage.work.groups[1] / stage.extent.width / stage.extent.height;
+}
+
 /// Taps per pixel of each shader, by the first part of the shader's name.
 struct ShaderTaps {
   std::string_view shader;
@@ -129,11 +150,8 @@ constexpr std::array kShaders = {
     ShaderTaps{"block_coarse", coarseLine},
     ShaderTaps{"block_coarse_growth", [](const Stage& stage) { return window(2) * stage.share; }},
     ShaderTaps{"block_atrous", [](const Stage& stage) { return 9.0 * stage.share; }},
-    // The pixel itself, and the four blocks and four cells around it.
-    ShaderTaps{"block_apply", [](const Stage&) { return 1.0 + 2.0 * kBilinear; }},
-    // Windows of three sums of tiles.
-    ShaderTaps{"residual_statistics",
-               [](const Stage& stage) { return 3.0 * window(specializationOf(stage, "kRadius")) * stage.share; }},
+    ShaderTaps{"block_apply", blockApply},
+    ShaderTaps{"residual_statistics", residualStatistics},
     ShaderTaps{"joint_bilateral", [](const Stage& stage) { return window(specializationOf(stage, "kRadius")); }},
 };
 

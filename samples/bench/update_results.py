@@ -57,7 +57,9 @@ def origin(data):
 
 
 def costs_at_1080p(variant):
-    cost = next(c for c in variant["costs"] if (c["width"], c["height"]) == (1920, 1080))
+    cost = next((c for c in variant["costs"] if (c["width"], c["height"]) == (1920, 1080)), None)
+    if cost is None:
+        sys.exit(f"bench.json has no costs of {variant['name']} at 1920 x 1080")
     return {"bytes": round(cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"], 1), "taps": rounded(cost["taps_per_pixel"], 1),
             "megabytes": round((cost["persistent_bytes"] + cost["transient_peak_bytes"]) / 1e6, 1)}
 
@@ -184,7 +186,7 @@ def readme_part(kept, gpu):
 *Lower left is better. Grey line: Pareto front. RMSE is the mean over both sequences.*
 
 All figures, presets and pictures of the hardest places: [samples/bench/RESULTS.md](samples/bench/RESULTS.md). Larger pictures and
-moving objects: [samples/bench/SCENES.md](samples/bench/SCENES.md).
+moving objects, with an older version: [samples/bench/SCENES.md](samples/bench/SCENES.md).
 """)
 
 

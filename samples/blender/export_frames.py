@@ -179,8 +179,13 @@ def name_moving_objects(scene, frames):
         return {o.name: o.evaluated_get(graph).matrix_world.copy()
                 for o in scene.objects if o.type in {"MESH", "CURVE", "SURFACE", "META", "FONT"}}
 
-    first, last = places(frames.start - 1), places(frames.stop - 1)
-    moving = sorted(name for name in first if name in last and first[name] != last[name])
+    # Every frame, because an object may be back at its place in the last one.
+    moving, before = set(), places(frames.start - 1)
+    for frame in frames:
+        now = places(frame)
+        moving |= {name for name in before if name in now and before[name] != now[name]}
+        before = now
+    moving = sorted(moving)
     if moving:
         print(f"warning: objects move ({', '.join(moving[:8])}{', ...' if len(moving) > 8 else ''}): walr denoise uses "
               "their motion in the image; let it find their change of depth with --motion-depth found")

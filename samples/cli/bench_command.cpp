@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "integration/denoise_graph.h"
 #include "samples/bench/bench.h"
 #include "samples/bench/bench_report.h"
 #include "samples/bench/html_report.h"
@@ -67,8 +67,18 @@ void refuseOutputIntoInput(const BenchArguments& arguments) {
   }
 }
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  writeFileAtomically(path, std::as_bytes(std::span(text)));
+/// @throws UsageError if a variant cannot denoise the frames of a sequence
+void requireUsable(const std::vector<Variant>& variants, const std::vector<NamedSequence>& sequences) {
+  for (const NamedSequence& named : sequences) {
+    const InputConventions& conventions = named.sequence.denoiserLayout().conventions;
+    for (const Variant& variant : variants) {
+      try {
+        declareDenoiseGraph(*makeVariant(variant), named.sequence.extent(), conventions, kComputeHost);
+      } catch (const std::invalid_argument& error) {
+        throw UsageError(named.name + ": " + error.what() + "; choose methods for these frames with --methods");
+      }
+    }
+  }
 }
 
 void runBench(BenchArguments& arguments, const std::string& command) {
@@ -80,12 +90,13 @@ void runBench(BenchArguments& arguments, const std::string& command) {
     throw UsageError(
         "--repeat 0 measures errors only, but --sizes and --content measure times: give --repeat 1 or more");
   }
-  for (const std::string& size : arguments.sizes) arguments.bench.sizes.push_back(parseSize(size));
+  for (const std::string& size : arguments.sizes) arguments.bench.sizes.push_back(parseSize(size, "--sizes"));
   arguments.bench.variants = chosenVariants(arguments);
   refuseOutputIntoInput(arguments);
   arguments.sequence.nonFinite = NonFinitePolicy::Replace;
   if (!arguments.frames.empty()) arguments.sequence.frames = parseFrameRange(arguments.frames);
   const std::vector<NamedSequence> sequences = openSequences(arguments.sequences, arguments.sequence);
+  requireUsable(arguments.bench.variants, sequences);
   arguments.bench.vmaf = VmafTool::find(arguments.ffmpeg, arguments.vmafModel, arguments.bench.whyNoVmaf);
   const std::filesystem::path& output = arguments.bench.output;
   prepareOutputDirectory(output);
@@ -94,12 +105,9 @@ void runBench(BenchArguments& arguments, const std::string& command) {
   std::cout << "device: " << device.name() << ", driver " << device.driver()
             << (device.isSoftware() ? " (software)" : "") << std::endl;
   const BenchReport report = bench(device, sequences, arguments.bench, std::cerr, isatty(STDERR_FILENO) != 0);
-  if (const std::vector<fg::vk::Message> messages = device.takeMessages(); !messages.empty()) {
-    throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
-                             " message(s); the first: " + messages.front().text);
-  }
+  device.refuseMessages();
   printSummary(std::cout, report);
-  writeText(output / "bench.json", benchJson(report, command));
+  writeFileAtomically(output / "bench.json", benchJson(report, command));
   if (arguments.noHtml) return;
   const std::string trouble = writeHtmlReport(output, arguments.python);
   std::cout << (trouble.empty() ? "report: " + (output / "report.html").string() : trouble) << std::endl;

@@ -279,7 +279,7 @@ void denoise(DenoiseOptions& options) {
   printReport(std::cout, report);
   if (!options.json.empty()) {
     const std::string text = reportJson(report);
-    writeFileAtomically(options.json, std::as_bytes(std::span(text)));
+    writeFileAtomically(options.json, text);
   }
 }
 

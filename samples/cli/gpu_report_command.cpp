@@ -3,7 +3,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -50,7 +49,7 @@ std::vector<Variant> chosenVariants(const std::string& methods) {
 
 std::vector<fg::Extent> chosenSizes(const GpuReportArguments& arguments) {
   std::vector<fg::Extent> sizes;
-  for (const std::string& size : arguments.sizes) sizes.push_back(parseSize(size));
+  for (const std::string& size : arguments.sizes) sizes.push_back(parseSize(size, "--sizes"));
   if (!sizes.empty()) return sizes;
   if (arguments.report.quick) return {kQuickExtent};
   return {kCommonExtents.begin(), kCommonExtents.end()};
@@ -73,16 +72,9 @@ void refuseOwnFolders(const GpuReportArguments& arguments) {
   }
 }
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  writeFileAtomically(path, std::as_bytes(std::span(text)));
-}
-
 /// @throws std::runtime_error if the report holds an error that a script should notice
 void refuseErrors(const GpuReport& report) {
-  if (!report.validation.messages.empty()) {
-    throw std::runtime_error("the validation layer has " + std::to_string(report.validation.messages.size()) +
-                             " message(s); the first: " + report.validation.messages.front().text);
-  }
+  refuseMessages(report.validation.messages);
   for (const Agreement& agreement : report.agreements) {
     if (agreement.nonFinite > 0) throw std::runtime_error(agreement.variant + " gives values that are not finite");
   }
@@ -104,8 +96,8 @@ void runGpuReport(GpuReportArguments& arguments, const std::string& command) {
   }
   const GpuReport report = gpuReport(options, [](const std::string& step) { std::cerr << step << std::endl; });
   const std::filesystem::path page = options.output / "gpu_report.md";
-  writeText(options.output / "gpu_report.json", gpuReportJson(report, command));
-  writeText(page, gpuReportPage(report, command));
+  writeFileAtomically(options.output / "gpu_report.json", gpuReportJson(report, command));
+  writeFileAtomically(page, gpuReportPage(report, command));
   std::cout << "report: " << page.string() << std::endl;
   refuseErrors(report);
 }

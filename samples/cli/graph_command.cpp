@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -81,7 +80,7 @@ void write(const std::string& text, const std::string& file) {
   if (file.empty()) {
     std::cout << text;
   } else {
-    writeFileAtomically(file, std::as_bytes(std::span(text)));
+    writeFileAtomically(file, text);
   }
 }
 

@@ -50,11 +50,12 @@ CLI::Validator numberFrom(double least, double most) {
           "FLOAT:FLOAT " + range.str()};
 }
 
-fg::Extent parseSize(const std::string& text) {
+fg::Extent parseSize(const std::string& text, const std::string& option) {
   constexpr int kLargest = 16384;
   const auto pair = text.find('x') == std::string::npos ? std::nullopt : parsePair(text, 'x');
   if (!pair || pair->first < 1 || pair->second < 1 || pair->first > kLargest || pair->second > kLargest) {
-    throw UsageError("--size " + text + ": give width x height in pixels, 1 to 16384 each, as in --size 1920x1080");
+    throw UsageError(option + " " + text + ": give width x height in pixels, 1 to 16384 each, as in " + option +
+                     " 1920x1080");
   }
   return {static_cast<std::uint32_t>(pair->first), static_cast<std::uint32_t>(pair->second)};
 }

@@ -19,7 +19,7 @@ CLI::Validator numberFrom(double least, double most);
 
 /// Parse "WIDTHxHEIGHT" in pixels, 1 to 16384 each.
 /// @throws UsageError
-fg::Extent parseSize(const std::string& text);
+fg::Extent parseSize(const std::string& text, const std::string& option = "--size");
 
 /// Parse the value of `--exposure`: "auto" or a finite number of stops.
 /// @returns exposure in stops; nullopt: automatic

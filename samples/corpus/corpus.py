@@ -119,11 +119,8 @@ def list_entries(arguments):
 
 def run_bench(walr, sequence, output, options):
     """Runs `walr bench` without timing, and keeps every picture in `output`. options: what is compared."""
-    command = [walr, "bench", "--sequences", sequence, "--output", output, *options, "--batch", "20", "--repeat", "0",
-               "--all-pictures", "--no-html"]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if done.returncode:
-        raise RuntimeError(f"walr bench of {sequence.name} failed:\n{done.stderr[-2000:]}")
+    table.run_walr(walr, "bench", "--sequences", sequence, "--output", output, *options, "--batch", "20", "--repeat", "0",
+                   "--all-pictures", "--no-html")
 
 
 def bench(arguments, cache, entry, options):
@@ -137,11 +134,13 @@ def bench(arguments, cache, entry, options):
 
 
 def judged(arguments, cache, entry, names, options):
-    """Sums over blocks, noise of the references and worst places of an entry, from the cache or anew."""
+    """Sums over blocks, noise of the references and worst places of an entry, and whether they were in the cache."""
     sequence = cache.sequence(entry)
-    analysis = [hashlib.sha256((HERE / f).read_bytes()).hexdigest() for f in ("judging.py", "places.py")]
+    files = (HERE / "judging.py", HERE / "places.py", pathlib.Path(judging.exr.__file__))
+    analysis = [hashlib.sha256(file.read_bytes()).hexdigest() for file in files] + [results.UNFILTERED]
     folder = cache.folder / "judged" / f"{sequence.name}-{table.key([options, analysis], cache.program)}"
-    if not (folder / "facts.json").exists():
+    known = (folder / "facts.json").exists()
+    if not known:
         output = bench(arguments, cache, entry, options)
         pictures = output / "pictures" / sequence.name
         frames = range(entry.judged[0], entry.judged[1] + 1)
@@ -152,11 +151,14 @@ def judged(arguments, cache, entry, names, options):
         found = places.worst_places(sequence, pictures, frames, names, BASELINE, rivals, 3)
         for index, (_, sheet) in enumerate(found):
             sheet.save(folder / f"place_{index}.png")
-        (folder / "facts.json").write_text(json.dumps({"noise": noise, "places": [place for place, _ in found]}))
+        # Under its name only when it is whole, because it tells that everything else of the judgement is there.
+        unfinished = folder / "unfinished.json"
+        unfinished.write_text(json.dumps({"noise": noise, "places": [place for place, _ in found]}))
+        unfinished.replace(folder / "facts.json")
         if not arguments.keep_pictures:
             shutil.rmtree(output / "pictures")
     facts = json.loads((folder / "facts.json").read_text())
-    return folder, results.load_sums(folder / "sums.npz"), facts
+    return folder, results.load_sums(folder / "sums.npz"), facts, known
 
 
 def commit():
@@ -166,6 +168,8 @@ def commit():
 
 def run(arguments):
     entries, (names, options) = chosen(arguments), variants(arguments)
+    if not entries:
+        sys.exit("there is no entry left to run")
     cache = rendering.Cache(arguments.cache, arguments.walr)
     rendering.render_all(entries, cache, lambda text: print(text, flush=True))
     if arguments.render_only:
@@ -179,8 +183,8 @@ def run(arguments):
             "entries": {}, "places": []}
     all_sums = {}
     for entry in entries:
-        folder, all_sums[entry.name], facts = judged(arguments, cache, entry, names, options)
-        remaining.worked(costs[entry.name][2])
+        folder, all_sums[entry.name], facts, known = judged(arguments, cache, entry, names, options)
+        (remaining.skipped if known else remaining.worked)(costs[entry.name][2])
         print(f"{entry.name}: judged; {remaining.text()} left", flush=True)
         kept["entries"][entry.name] = {
             "scene": entry.scene.stem, "size": list(entry.size), "samples": entry.samples, "judged": list(entry.judged),
@@ -200,7 +204,8 @@ def run(arguments):
     (output / "results.json").write_text(pages.as_text(kept))
     (output / "RESULTS.md").write_text(pages.page(kept, "results.json", OVERVIEW), encoding="utf-8")
     sheets = [Image.open(output / place["file"]) for place in pages.shown_places(kept)]
-    places.overview(sheets).save(output / OVERVIEW, quality=85)
+    if sheets:
+        places.overview(sheets).save(output / OVERVIEW, quality=85)
     print(f"{output}: results.json, RESULTS.md, and pictures of the worst places")
 
 
@@ -262,7 +267,13 @@ def parse(arguments):
     command = commands.add_parser("agree")
     command.add_argument("first")
     command.add_argument("second")
-    return parser.parse_args(arguments)
+    parsed = parser.parse_args(arguments)
+    if parsed.command == "page":
+        if parsed.check and parsed.folder:
+            parser.error("page --check writes nothing, so it takes no folder to record")
+        if parsed.name and not parsed.folder:
+            parser.error("page --name names the record of a run, so it needs the run's folder")
+    return parsed
 
 
 def main(arguments=None):

@@ -4,6 +4,7 @@ import hashlib
 import json
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
@@ -85,14 +86,20 @@ def key(settings, renderer):
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
+def run_walr(walr, *arguments):
+    """Runs the program, and ends with what it says if it fails."""
+    done = subprocess.run(list(map(str, (walr, *arguments))), capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, (walr, *arguments)))} failed:\n{done.stderr[-2000:]}")
+
+
 def renderer_version(walr, scene, camera=""):
     """The version of the renderer as far as this scene shows it: a hash of two tiny pictures and a reference of it.
 
     A change of the program that changes no pixel keeps what has been rendered; one that changes pixels does not."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [walr, "render", scene, "--output", folder, "--frames", "9-10", "--size", "48x27", "--spp", "2", "--jitter",
-                   "--reference-spp", "2", "--reference-pixel", "area", *(["--camera", camera] if camera else [])]
-        subprocess.run(list(map(str, command)), check=True, capture_output=True)
+        run_walr(walr, "render", scene, "--output", folder, "--frames", "9-10", "--size", "48x27", "--spp", "2", "--jitter",
+                 "--reference-spp", "2", "--reference-pixel", "area", *(["--camera", camera] if camera else []))
         files = sorted(pathlib.Path(folder).glob("*.exr"))
         return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:16]
 

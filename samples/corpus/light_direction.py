@@ -7,7 +7,6 @@ Needs numpy and Pillow (Debian: python3-matplotlib). The table is in the integra
 import argparse
 import json
 import pathlib
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
@@ -23,10 +22,6 @@ STEEP = 20
 """Degrees between mapped and geometric normal from which a pixel belongs to an edge of a tile."""
 
 
-def layer(images, name, letters="RGB"):
-    return np.stack([images[f"{name}.{c}"] for c in letters], axis=2).astype(float)
-
-
 def without_normal_maps(scene, file):
     contents = json.loads(scene.read_text())
     for material in contents["materials"]:
@@ -40,11 +35,11 @@ def denoised(walr, scene, folder, size, *options):
     render = ["render", scene, "--camera", "tiled wall", "--output", folder, "--frames", f"{FRAME - 9}-{FRAME}", "--size",
               "x".join(map(str, size)), "--spp", "1", *options]
     for command in (render, ["denoise", folder, "--output", folder / "denoised", "--light-direction"]):
-        subprocess.run([str(walr), *map(str, command)], check=True, capture_output=True)
+        table.run_walr(walr, *command)
     slopes = exr.read(folder / "denoised" / f"direction_{FRAME:04d}.exr")
-    return (layer(exr.read(folder / "denoised" / f"denoised_{FRAME:04d}.exr"), "Indirect"),
-            np.stack([layer(slopes, f"Slope{axis}") for axis in "XYZ"], axis=3),
-            layer(exr.read(folder / f"noisy_{FRAME:04d}.exr"), "Normal", "XYZ"))
+    return (exr.layer(exr.read(folder / "denoised" / f"denoised_{FRAME:04d}.exr"), "Indirect"),
+            np.stack([exr.layer(slopes, f"Slope{axis}") for axis in "XYZ"], axis=3),
+            exr.layer(exr.read(folder / f"noisy_{FRAME:04d}.exr"), "Normal", "XYZ"))
 
 
 def shaded(light, slopes, change):
@@ -76,7 +71,7 @@ def main():
     flat, flat_slopes, flat_normal = denoised(walr, without_normal_maps(scene, folder / "flat.gltf"), folder / "flat", SIZE)
     small, small_slopes, small_normal = denoised(walr, scene, folder / "small", SMALL)
     truth = exr.read(folder / "mapped" / f"ref_{FRAME:04d}.exr")
-    reference, half = layer(truth, "Indirect"), layer(truth, "IndirectA")
+    reference, half = exr.layer(truth, "Indirect"), exr.layer(truth, "IndirectA")
     results = {
         "denoised with the mapped normal": mapped,
         "denoised with the geometric normal": flat,

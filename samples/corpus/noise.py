@@ -11,7 +11,6 @@ proportion to the light of a pixel. In the first 40 frames it is too high by up 
 history, while the noise still falls. Needs numpy and Pillow (Debian: python3-matplotlib)."""
 import argparse
 import pathlib
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
@@ -87,12 +86,8 @@ def by_quantile(luminance, estimate, squared_error, counted):
     return rows
 
 
-def layer(images, name, letters="RGB"):
-    return np.stack([images[f"{name}.{c}"] for c in letters], axis=2).astype(float)
-
-
 def light_of(file):
-    return judging.luminance(layer(exr.read(file), "Indirect"))
+    return judging.luminance(exr.layer(exr.read(file), "Indirect"))
 
 
 def frames_of(samples):
@@ -104,9 +99,8 @@ def rendered(walr, arguments, samples):
     folder, first = (arguments.output / f"{n}_rays" for n in (samples, SAMPLES[0]))
     frames = frames_of(samples)
     reference = ["--reference-spp", str(REFERENCE_SAMPLES), "--reference-frames", f"{LAST}-{LAST}"] if folder == first else []
-    subprocess.run([str(walr), "render", str(arguments.scene), "--output", str(folder), "--fps", MOMENT, "--size", arguments.size,
-                    "--spp", str(samples), "--sampler", arguments.sampler, "--frames", f"{frames[0]}-{frames[-1]}", *reference],
-                   check=True, capture_output=True)
+    table.run_walr(walr, "render", arguments.scene, "--output", folder, "--fps", MOMENT, "--size", arguments.size,
+                   "--spp", samples, "--sampler", arguments.sampler, "--frames", f"{frames[0]}-{frames[-1]}", *reference)
     return folder, first / f"ref_{LAST:04d}.exr"
 
 
@@ -114,8 +108,8 @@ def denoised(walr, folder, method):
     """Accumulated light alone, or the prediction of the fits: without accumulated light and anti-aliasing."""
     output = folder / method
     fits = ["--set", "antialiasing.enabled=off", "--set", "blocks.residual=off"] if method == "walr" else []
-    subprocess.run([str(walr), "denoise", str(folder), "--output", str(output), "--method", method, "--set",
-                    f"accumulation.max-history={MAX_HISTORY}", *fits], check=True, capture_output=True)
+    table.run_walr(walr, "denoise", folder, "--output", output, "--method", method, "--set",
+                   f"accumulation.max-history={MAX_HISTORY}", *fits)
     return output
 
 
@@ -125,13 +119,13 @@ def rows_of(walr, folder, reference):
     estimate = Estimate()
     for age, file in enumerate(sorted(folder.glob("noisy_*.exr")), 1):
         images, frame = exr.read(file), file.stem[-4:]
-        counted = (layer(images, "Normal", "XYZ") != 0).any(axis=2) & (images["Depth.Z"] < judging.SKY_DEPTH)
+        counted = (exr.layer(images, "Normal", "XYZ") != 0).any(axis=2) & (images["Depth.Z"] < judging.SKY_DEPTH)
         mean = light_of(means / f"denoised_{frame}.exr")
         length = np.full(mean.shape, float(min(age, MAX_HISTORY)))
-        known = estimate.add(judging.luminance(layer(images, "Indirect")), mean, light_of(predictions / f"denoised_{frame}.exr"), length,
+        known = estimate.add(judging.luminance(exr.layer(images, "Indirect")), mean, light_of(predictions / f"denoised_{frame}.exr"), length,
                              counted)
     light = exr.read(reference)
-    truth, half = (judging.luminance(layer(light, name)) for name in ("Indirect", "IndirectA"))
+    truth, half = (judging.luminance(exr.layer(light, name)) for name in ("Indirect", "IndirectA"))
     return by_quantile(truth, known, (mean - truth) ** 2 - (half - truth) ** 2, counted)
 
 

@@ -74,7 +74,8 @@ def cycles_page(sequences):
     text = CYCLES + row(["sequence", "rays per pixel", *(f"`{m}`" for m in TAKE_SPARSE)]) + row(["---"] * (len(TAKE_SPARSE) + 2))
     for sequence, rates in sequences.items():
         for rate in order(rates):
-            cells = [f"{1e4 * rates[rate][m]:.1f} ({rates[rate][m] / rates['1'][m]:.3f})" for m in TAKE_SPARSE]
+            cells = [f"{1e4 * rates[rate][m]:.1f} (" + (f"{rates[rate][m] / rates['1'][m]:.3f}" if rates["1"][m] else "-") + ")"
+                     for m in TAKE_SPARSE]
             text += row([f"`{sequence}`", rate, *cells])
     return text
 
@@ -88,6 +89,8 @@ def plot(kept):
         for method in COLUMNS:
             points = [(rays(r), 1e4 * rates[r][method][0]) for r in order(rates)
                       if r != RESAMPLED and r not in FINE and rates[r].get(method)]
+            if not points:
+                continue
             style = "--" if method in ("none", "accumulate", "plain") else "-"
             line, = panel.plot(*zip(*points), style, marker="o", markersize=3, label=HEADINGS.get(method, method))
             if rates.get(RESAMPLED, {}).get(method):

@@ -5,13 +5,12 @@ denoises and judges them.
     rates.py run [--cache DIR]      render and denoise what is missing, judge; writes rates.json, RATES.md and rates.png
     rates.py page [--check]         writes RATES.md and rates.png from rates.json
 
-An interrupted run resumes where it was. It traces 680 million paths, and takes about an hour of two idle cores. samples/docs/corpus.md
+An interrupted run resumes where it was. It traces 800 million paths, and takes about an hour of two idle cores. samples/docs/corpus.md
 says how errors and intervals are made. Needs numpy, Pillow and matplotlib (Debian: python3-matplotlib)."""
 import argparse
 import json
 import math
 import pathlib
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
@@ -51,10 +50,6 @@ def bench(walr, cache, entry, methods):
     return pictures
 
 
-def layer(images, name, letters):
-    return np.stack([images[f"{name}.{c}"] for c in letters], axis=2).astype(float)
-
-
 def interpolated(small, small_guides, guides, side):
     """A picture of full size from one that is smaller by `side`: of the 16 nearest pixels those on the same plane, by distance,
     depth and normal. Guides: (depth, normal)."""
@@ -77,8 +72,8 @@ def denoised(walr, sequence, output, options):
     """Results of `walr denoise` by frame; what has been denoised is not denoised again."""
     files = {frame: output / f"denoised_{frame:04d}.exr" for frame in FRAMES}
     if not all(file.exists() for file in files.values()):
-        subprocess.run([str(walr), "denoise", str(sequence), "--output", str(output), *options], check=True, capture_output=True)
-    return {frame: layer(exr.read(file), "Indirect", "RGB") for frame, file in files.items()}
+        table.run_walr(walr, "denoise", sequence, "--output", output, *options)
+    return {frame: exr.layer(exr.read(file), "Indirect") for frame, file in files.items()}
 
 
 def plain_pictures(walr, cache, entry, side, full):
@@ -88,7 +83,7 @@ def plain_pictures(walr, cache, entry, side, full):
     pictures = {}
     for frame in FRAMES:
         small, large = (exr.read(folder / f"noisy_{frame:04d}.exr") for folder in (sequence, full))
-        guides = [(images["Depth.Z"].astype(float), layer(images, "Normal", "XYZ")) for images in (small, large)]
+        guides = [(images["Depth.Z"].astype(float), exr.layer(images, "Normal", "XYZ")) for images in (small, large)]
         pictures[frame] = interpolated(lights[frame], *guides, side)
     return pictures
 
@@ -124,18 +119,20 @@ class Squares:
 
 
 def judged(walr, cache, scene, log):
-    """Sums of squares by rate and method, and the noise of the references."""
-    found, plain, fine = rate_entries.of_scene(scene)
-    ready = {rate: e for rate, e in found.items() if all((cache.sequence(e) / f).exists() for f in cache.files(e))}
+    """Sums of squares by rate and method, and the noise of the references, of what has been rendered. None without the sequence of
+    1 ray, which the others are compared with."""
+    found, plain, fine = ({rate: e for rate, e in kind.items() if cache.complete(e)} for kind in rate_entries.of_scene(scene))
+    if "1" not in found:
+        return None
     full = cache.sequence(found["1"])
     squares, sums = None, {}
-    for rate, entry in sorted(ready.items(), key=lambda item: item[0] != "1"):
+    for rate, entry in sorted(found.items(), key=lambda item: item[0] != "1"):
         methods = METHODS if rate_entries.rays(rate) >= 1 else rate_entries.TAKE_SPARSE
         pictures = bench(walr, cache, entry, methods)
         squares = squares or Squares(full, pictures)
         sums[rate] = {m: squares.sums(lambda frame: np.load(pictures / f"{m}_{frame:04d}.npy").astype(float)) for m in methods}
         log(f"{scene}: {rate} judged")
-    for rate, entry in plain.items():
+    for rate, entry in ((rate, e) for rate, e in plain.items() if rate in sums):
         pictures = plain_pictures(walr, cache, entry, rate_entries.PLAIN[rate], full)
         sums[rate][PLAIN] = squares.sums(lambda frame: pictures[frame])
     for rate, entry in fine.items():
@@ -147,6 +144,11 @@ def judged(walr, cache, scene, log):
     return sums, squares.noise()
 
 
+def clean_rmse(mean):
+    """RMSE without the noise of the references, from the means of `walr denoise --json`. Nothing is taken off where it is unknown."""
+    return math.sqrt(max(mean["rmse"] ** 2 - (mean["reference_noise"] or 0.0) ** 2, 0.0))
+
+
 def cycles_errors(walr, output, log):
     """RMSE of sequences of Cycles by sequence, rate and method, after the fourth frame: all samples, and a share of them
     (`walr denoise --light-rate`). Sequences that are absent are left out."""
@@ -155,10 +157,9 @@ def cycles_errors(walr, output, log):
         for rate in ("1", *rate_entries.SPARSE):
             for method in rate_entries.TAKE_SPARSE:
                 report = output / "report.json"
-                subprocess.run([str(walr), "denoise", str(sequence), "--output", str(output / "denoised"), "--method", method,
-                                "--light-rate", rate, "--json", str(report)], check=True, capture_output=True)
-                mean = json.loads(report.read_text())["mean_after_4"]
-                error = math.sqrt(mean["rmse"] ** 2 - mean["reference_noise"] ** 2)
+                table.run_walr(walr, "denoise", sequence, "--output", output / "denoised", "--method", method, "--light-rate", rate,
+                               "--json", report)
+                error = clean_rmse(json.loads(report.read_text())["mean_after_4"])
                 found.setdefault(sequence.name, {}).setdefault(rate, {})[method] = results.rounded(error)
             log(f"{sequence.name} of Cycles: {rate} judged")
     return found
@@ -176,7 +177,7 @@ def figures(all_sums):
     for rate in rate_pages.order({rate for sums in all_sums.values() for rate in sums}):
         having = [sums for sums in all_sums.values() if rate in sums]
         ratios[rate] = {"scenes": len(having)}
-        for method in having[0][rate]:
+        for method in (m for m in having[0][rate] if all(m in sums[rate] for sums in having)):
             pairs = [(sums[rate][method][0], sums["1"]["walr"][0]) for sums in having]
             ratios[rate][method] = root(intervals.log_ratio_interval(pairs))
     return scenes, ratios
@@ -190,7 +191,12 @@ def run(arguments):
         rendering.render_all(sorted(wanted, key=lambda e: e.samples), cache, lambda text: print(text, flush=True))
     all_sums, noise = {}, {}
     for scene in rate_entries.SCENES:
-        all_sums[scene], noise[scene] = judged(arguments.walr, cache, scene, lambda text: print(text, flush=True))
+        if found := judged(arguments.walr, cache, scene, lambda text: print(text, flush=True)):
+            all_sums[scene], noise[scene] = found
+        else:
+            print(f"{scene}: left out, because its sequence of 1 ray has not been rendered", file=sys.stderr)
+    if not all_sums:
+        sys.exit("no scene has been rendered at 1 ray, so there is nothing to compare with")
     scenes, ratios = figures(all_sums)
     cycles = cycles_errors(arguments.walr, cache.folder / "rates", lambda text: print(text, flush=True))
     KEPT.write_text(json.dumps({"commit": corpus.commit(), "noise": {s: results.rounded(n) for s, n in noise.items()},

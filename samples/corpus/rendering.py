@@ -62,7 +62,12 @@ class Cache:
         """The names of the files that `walr render` writes for an entry."""
         first, last = entry.frames
         noisy = [f"noisy_{i:04d}.exr" for i in range(first, last + 1)]
-        return noisy + [f"ref_{i:04d}.exr" for i in range(entry.judged[0], entry.judged[1] + 1)]
+        references = range(entry.judged[0], entry.judged[1] + 1) if entry.reference_samples else ()
+        return noisy + [f"ref_{i:04d}.exr" for i in references]
+
+    def complete(self, entry):
+        """Whether everything of an entry has been rendered."""
+        return all((self.sequence(entry) / file).exists() for file in self.files(entry))
 
     def work(self, entry, file):
         """Paths of one file of an entry."""

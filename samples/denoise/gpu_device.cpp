@@ -64,7 +64,10 @@ GpuDevice::~GpuDevice() {
 }
 
 void GpuDevice::refuseMessages() {
-  const std::vector<fg::vk::Message> messages = takeMessages();
+  walr::refuseMessages(takeMessages());
+}
+
+void refuseMessages(const std::vector<fg::vk::Message>& messages) {
   if (!messages.empty()) {
     throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
                              " message(s); the first: " + messages.front().text);

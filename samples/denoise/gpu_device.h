@@ -65,6 +65,9 @@ class GpuDevice {
   std::unique_ptr<fg::vk::PipelineCache> pipelineCache_;
 };
 
+/// @throws std::runtime_error with the first of the validation layer's messages, if there is one
+void refuseMessages(const std::vector<fg::vk::Message>& messages);
+
 /// The file with a device's compiled pipelines. It lies in `$XDG_CACHE_HOME/walr`, or else in `~/.cache/walr` (XDG Base
 /// Directory Specification), and its name contains the device's pipeline cache UUID and the driver's version. Empty if
 /// neither variable is set to an absolute path.

@@ -15,16 +15,10 @@
 #include <variant>
 
 #include "framegraph/tools/reflect.h"
+#include "samples/command_line/shell_word.h"
 
 namespace walr::host {
 namespace {
-
-/// A word for the shell.
-std::string shellWord(const std::string& word) {
-  std::string result = "'";
-  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
 
 struct Run {
   bool succeeded = false;

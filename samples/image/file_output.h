@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace walr {
 
@@ -15,5 +16,7 @@ void prepareOutputDirectory(const std::filesystem::path& directory);
 /// as a pipe or /dev/stdout, is written to directly.
 /// @throws OutputError; the temporary file is removed
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// The same for a text.
+void writeFileAtomically(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace walr

@@ -72,6 +72,11 @@ def read(path):
     return images
 
 
+def layer(images, name, letters="RGB"):
+    """The channels of a layer as one array of double precision."""
+    return np.stack([images[f"{name}.{c}"] for c in letters], axis=2).astype(float)
+
+
 def colour(images, layer=""):
     """The channels R, G and B of a layer as one array."""
     prefix = layer + "." if layer else ""

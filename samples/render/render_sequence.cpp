@@ -4,7 +4,6 @@
 #include <chrono>
 #include <fstream>
 #include <iomanip>
-#include <span>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -39,7 +38,8 @@ const char* nameOf(Sampler::Kind kind) {
 // Only in the settings of the tracer on the GPU, whose frames differ from the processor's by rounding.
 constexpr const char* kTracerKey = "tracer";
 
-// All settings that pixels depend on. The range of frames is left out, because more frames may be added later.
+// The settings that pixels depend on. The range of frames is left out, because more frames may be added later. Of the
+// files only the scene's name and size and the sky's name are compared, so that other changes of them go unnoticed.
 nlohmann::json describe(const RenderOptions& options) {
   nlohmann::json settings = {
       {"scene", options.scene.filename().string()},
@@ -72,7 +72,7 @@ void matchSettings(const RenderOptions& options) {
   std::error_code error;
   if (!fs::exists(file, error)) {
     const std::string text = settings.dump(2) + "\n";
-    writeFileAtomically(file, std::as_bytes(std::span(text)));
+    writeFileAtomically(file, text);
     return;
   }
   std::ifstream stream(file);

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "passes/text.h"
 #include "samples/errors.h"
 
 namespace walr {
@@ -100,14 +101,6 @@ bool isWanted(const Plane& plane, const LightWish& wanted) {
 /// A plane of three colours that has no role.
 Plane colours(std::string_view name) {
   return {Role::Emission, name, "RGB"};
-}
-
-std::string join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text.empty() ? "none" : text;
 }
 
 /// Components of the image that a plane is read into. Motion always gets three, even if the file has no z.
@@ -278,10 +271,10 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
     }
     if (!viewLayer.empty() && !layers.contains(std::string(viewLayer))) {
       throw InputError(file.path().string() + ": no view layer '" + std::string(viewLayer) +
-                       "'; the file has: " + join({layers.begin(), layers.end()}));
+                       "'; the file has: " + join(layers));
     }
     if (viewLayer.empty() && layers.size() > 1) {
-      throw InputError(file.path().string() + ": several view layers (" + join({layers.begin(), layers.end()}) +
+      throw InputError(file.path().string() + ": several view layers (" + join(layers) +
                        "); choose one with --view-layer NAME");
     }
     RecognizedLayout recognized{layout, viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
@@ -294,7 +287,7 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
       file.path().string() +
       ": neither a Blender Cycles frame (channels DiffInd.R, ..., or Diffuse Indirect.R, ... since Blender "
       "5) nor a frame in walr's own layout (Indirect.R, ...). Channels found: " +
-      join(channels));
+      (channels.empty() ? "none" : join(channels)));
 }
 
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
@@ -395,7 +388,7 @@ std::string describeMissing(const RecognizedLayout& layout) {
       names.emplace_back(light.name);
     }
   }
-  return names.empty() ? "" : join(names);
+  return join(names);
 }
 
 }  // namespace walr

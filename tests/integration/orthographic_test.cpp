@@ -200,8 +200,10 @@ TEST_F(Orthographic, DepthMayBeLinearNegativeOrThatOfTheDevice) {
 }
 
 TEST_F(Orthographic, WhatDoesNotFitIsRefusedWithTheWayOut) {
-  const auto record = [&](bool stated, const glm::mat4& projection) {
-    HostedRun run(device(), "walr", kSize, stated ? orthographic() : HostedRun::Options{});
+  const auto record = [&](bool stated, const glm::mat4& projection, WalrDepth depth = WALR_DEPTH_LINEAR) {
+    HostedRun::Options options = stated ? orthographic() : HostedRun::Options{};
+    options.conventions.depth = depth;
+    HostedRun run(device(), "walr", kSize, options);
     FrameDescription camera = walkingCamera(true, 0);
     run.fill(renderFrame(flatWall(), camera, kSize));
     camera.projection = camera.previousProjection = projection;
@@ -219,6 +221,10 @@ TEST_F(Orthographic, WhatDoesNotFitIsRefusedWithTheWayOut) {
                                   {"is not that of an orthographic camera", "use another denoiser"});
   expectError<std::runtime_error>([&] { record(true, oblique); }, {"oblique projections"});
   expectError<std::runtime_error>([&] { record(true, down); }, {"has y down"});
+  glm::mat4 flat = parallel;
+  flat[2][2] = 0.0F;
+  EXPECT_NO_THROW(record(true, flat));
+  expectError<std::runtime_error>([&] { record(true, flat, WALR_DEPTH_DEVICE); }, {"row z of the projection"});
 
   HostedRun::Options options = orthographic();
   options.lint = true;

@@ -131,6 +131,14 @@ std::vector<Case> cases() {
     return eachPixel([scale](HostFrame& f, glm::ivec2 p) { f.motion[p] *= scale; });
   };
   const glm::dvec2 size(kSize);
+  const auto jitterMatrices = [](HostInput& h) {
+    const glm::vec2 clip = glm::vec2(2.0F, -2.0F) / glm::vec2(kSize);
+    for (int axis = 0; axis < 2; ++axis) {
+      h.camera.projection[2][axis] += h.camera.jitter[axis] * clip[axis];
+      h.camera.previousProjection[2][axis] += h.camera.previousJitter[axis] * clip[axis];
+    }
+  };
+  const auto skyAlone = eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] = 2e9; });
   std::vector<Case> all{
       {"good", {}},
       {"good, still", {}, [](HostInput&) {}, false, true},
@@ -186,7 +194,14 @@ std::vector<Case> cases() {
        })},
       {"depth negative", {"depth-sign"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] *= -1.0; })},
       {"depth missing", {"depth-empty"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0.0; })},
-      {"sky alone", {"sky-only"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] = 2e9; })},
+      {"sky alone", {"sky-only"}, skyAlone},
+      {"sky alone, and another fault",
+       {"jitter-in-matrices", "sky-only"},
+       [=](HostInput& h) {
+         skyAlone(h);
+         jitterMatrices(h);
+       },
+       true},
       {"depth reversed",
        {"depth-reversed"},
        eachPixel([](HostFrame& f, glm::ivec2 p) { f.depth[p] = 0.1 / f.depth[p]; }),
@@ -279,16 +294,7 @@ std::vector<Case> cases() {
          h.frame.constants = frameConstants(h.camera, kExtent);
        },
        true},
-      {"jitter in the matrices",
-       {"jitter-in-matrices"},
-       [](HostInput& h) {
-         const glm::vec2 clip = glm::vec2(2.0F, -2.0F) / glm::vec2(kSize);
-         for (int axis = 0; axis < 2; ++axis) {
-           h.camera.projection[2][axis] += h.camera.jitter[axis] * clip[axis];
-           h.camera.previousProjection[2][axis] += h.camera.previousJitter[axis] * clip[axis];
-         }
-       },
-       true},
+      {"jitter in the matrices", {"jitter-in-matrices"}, jitterMatrices, true},
   };
   return all;
 }

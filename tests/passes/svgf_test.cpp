@@ -353,6 +353,14 @@ TEST_F(SvgfTest, FeedbackBeyondTheLastIterationIsRefused) {
   const DenoiserInputs inputs = importInputs(graph, kSize);
   const fg::Texture output = importOutput(graph, kSize);
   EXPECT_THROW(addSvgf(graph, inputs, output, settings), std::invalid_argument);
+  settings.filter.iterations = 4;
+  settings.filter.window = SvgfWindow::Full;
+  try {
+    addSvgf(graph, inputs, output, settings);
+    FAIL() << "the full window is one iteration";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("svgf.window=atrous"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -105,6 +105,11 @@ TEST_F(BenchProgramTest, ComparesWithAShareOfTheSamples) {
   EXPECT_GT(run(report(first), "accumulate")["mean"]["rmse"].get<double>(), all);
 }
 
+TEST_F(BenchProgramTest, RefusesMethodsThatDoNotTakeSparseLight) {
+  expectFailure(bench(first, {"--light-rate", "1/4"}), test::kUsage, {"wall", "sample of light", "flr", "--methods"});
+  EXPECT_FALSE(fs::exists(first));
+}
+
 TEST_F(BenchProgramTest, RunsGiveTheSameErrorsAndPictures) {
   expectSuccess(bench(first, {"--methods", "bmfr"}));
   expectSuccess(bench(second, {"--methods", "bmfr"}));
@@ -175,6 +180,11 @@ TEST_F(BenchProgramTest, RunsOnlyWhatIsMissingOrHasChanged) {
   });
   const ProcessResult changed = bench(first, {"--methods", "accumulate"});
   EXPECT_NE(changed.err.find("0 of 2 variants"), std::string::npos) << changed.err;
+  json cameras = json::parse(test::readText(input / "cameras.json"));
+  cameras["frames"][3]["jitter"] = {0.25, -0.25};
+  test::writeText(input / "cameras.json", cameras.dump());
+  const ProcessResult jittered = bench(first, {"--methods", "accumulate"});
+  EXPECT_NE(jittered.err.find("0 of 2 variants"), std::string::npos) << jittered.err;
   const ProcessResult found = bench(first, {"--methods", "accumulate", "--motion-depth", "found"});
   expectSuccess(found);
   EXPECT_NE(found.err.find("0 of 2 variants"), std::string::npos) << found.err;
@@ -190,6 +200,7 @@ TEST_F(BenchProgramTest, TimesAtOtherSizes) {
   const json data = report(first);
   ASSERT_EQ(data["sizes"].size(), 2U);
   EXPECT_EQ(data["sizes"][1]["width"], 96);
+  EXPECT_NE(data["command"].get<std::string>().find(" --sizes 96x40"), std::string::npos) << data["command"];
   for (const json& timing : data["sizes"][1]["timings"]) {
     EXPECT_EQ(timing["timed_frames"], 8);
     EXPECT_GT(timing["milliseconds"]["median"], 0.0);
@@ -274,6 +285,7 @@ TEST_F(BenchProgramTest, WhatIsWrongIsNamedBeforeAnythingIsWritten) {
   using test::kUsage;
   expectFailure(bench(first, {"--methods", "magic"}), kUsage, {"magic"});
   expectFailure(bench(first, {"--sweep", "magic"}), kUsage, {"known sweeps"});
+  expectFailure(bench(first, {"--sizes", "64"}), kUsage, {"--sizes 64"});
   expectFailure(bench(first, {"--variant", "x=walr,magic=1"}), kUsage, {"magic"});
   expectFailure(bench(first, {"--sequences", (directory.path() / "nowhere").string()}), kInput, {"nowhere"});
   for (int frame = 0; frame < 6; ++frame) fs::remove(input / ("ref_000" + std::to_string(frame) + ".exr"));

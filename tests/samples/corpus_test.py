@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -248,6 +249,30 @@ class Judging(unittest.TestCase):
         self.assertEqual(places.worst_tiles(square, judged, 2), [(0, 0), (64, 96)])
 
 
+class Commands(unittest.TestCase):
+    def refused(self, *arguments):
+        with self.assertRaises(SystemExit) as caught, contextlib.redirect_stderr(io.StringIO()) as text:
+            corpus.main([str(a) for a in arguments])
+        return text.getvalue() + str(caught.exception)
+
+    def test_a_run_of_nothing_leaves_results_as_they_are(self):
+        gone = {"gone": dataclasses.replace(TINY, scene=pathlib.Path("gone.gltf"))}
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(entries, "corpus", lambda: gone):
+            text = self.refused("run", "--walr", WALR, "--cache", folder, "--output", folder, "--entries", "gone")
+            self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
+        self.assertIn("gone.gltf", text)
+        self.assertIn("no entry left", text)
+
+    def test_a_page_is_recorded_from_a_folder_and_not_by_a_check(self):
+        self.assertIn("--check", self.refused("page", "--check", "folder"))
+        self.assertIn("--name", self.refused("page", "--name", "540"))
+
+    def test_the_programs_own_message_is_shown(self):
+        with self.assertRaises(SystemExit) as caught:
+            entries.run_walr(WALR, "render", "--spp", "many")
+        self.assertIn("Value many", str(caught.exception))
+
+
 def run(*arguments):
     with contextlib.redirect_stdout(io.StringIO()) as text:
         corpus.main([str(a) for a in arguments])
@@ -393,6 +418,38 @@ class Rates(unittest.TestCase):
         whole = rates.interpolated(small, (depth[::2, ::2], normal[::2, ::2]), (depth, normal), 2)
         # A pixel of the other plane weighs exp(-25) at most.
         np.testing.assert_allclose(whole, depth[:, :, None] * np.array([1.0, 2.0, 3.0]), rtol=1e-9)
+
+    def test_what_has_not_been_rendered_is_left_out(self):
+        class Rendered(rendering.Cache):
+            """A cache that has some of the entries, of which none is ever read."""
+
+            version, names = (lambda self, entry: ""), ()
+
+            def complete(self, entry):
+                return entry.name in self.names
+
+        cache, denoised = Rendered("", WALR), []
+        self.assertIsNone(rates.judged(WALR, cache, "box", print))
+        cache.names = ("box_rate_1", "box_rate_1_4", "box_plain_1_9", "box_fine_4")
+        whole = mock.patch.multiple(
+            rates, bench=lambda *_: pathlib.Path(), Squares=lambda *_: mock.Mock(**{"sums.return_value": (1, 1), "noise.return_value": 0}),
+            fine_pictures=lambda walr, cache, entry, method: denoised.append(entry.name), plain_pictures=lambda *_: denoised.append("plain"))
+        with whole:
+            sums, _ = rates.judged(WALR, cache, "box", lambda text: None)
+        self.assertEqual(set(sums), {"1", "1/4", "4, 4 hits"})
+        self.assertEqual(set(denoised), {"box_fine_4"})
+
+    def test_ratios_are_over_scenes_that_have_the_method(self):
+        random = np.random.default_rng(1)
+        sums = {"walr": (random.uniform(1, 2, 20), np.ones(20)), "plain": (random.uniform(1, 2, 20), np.ones(20))}
+        of_scenes = {"a": {"1": sums}, "b": {"1": {"walr": sums["walr"]}}}
+        self.assertEqual(set(rates.figures(of_scenes)[1]["1"]), {"scenes", "walr"})
+
+    def test_noise_above_the_error_leaves_none(self):
+        self.assertAlmostEqual(rates.clean_rmse({"rmse": 0.5, "reference_noise": 0.3}), 0.4)
+        self.assertEqual(rates.clean_rmse({"rmse": 0.3, "reference_noise": 0.5}), 0.0)
+        self.assertEqual(rates.clean_rmse({"rmse": 0.3, "reference_noise": None}), 0.3)
+        self.assertIn(" 0.0 (-) ", rate_pages.cycles_page({"s": {"1": dict.fromkeys(rate_entries.TAKE_SPARSE, 0.0)}}))
 
     def test_the_committed_page_is_what_the_figures_give(self):
         rate_pages.write(json.loads(rates.KEPT.read_text()), check=True)

@@ -138,6 +138,11 @@ class ExportFrames(unittest.TestCase):
         self.assertIn("objects move (Ball)", text)
         self.assertTrue(text.rstrip().endswith("--motion-depth found --view-layer 'Near things'"), text)
 
+    def test_an_object_that_returns_has_moved(self):
+        bpy, scene = blender(moves=True)
+        scene.frame_set = lambda frame: setattr(scene, "frame", frame % 2)
+        self.assertIn("objects move (Ball)", self.run_script(bpy, "--frames", "1-2"))
+
     def test_a_later_call_adds_frames(self):
         self.run_script(blender()[0], "--frames", "1-3")
         bpy, scene = blender()

@@ -144,7 +144,7 @@ TEST_F(GpuReportProgramTest, TakesASequence) {
 TEST_F(GpuReportProgramTest, WhatIsWrongIsNamedBeforeAnythingIsWritten) {
   expectFailure(report(first, {"--methods", "magic"}), kUsage, {"magic"});
   expectFailure(report(first, {"--machine", "abacus"}), kUsage, {"'abacus'", "w6800", "h200"});
-  expectFailure(report(first, {"--sizes", "64"}), kUsage, {"64"});
+  expectFailure(report(first, {"--sizes", "64"}), kUsage, {"--sizes 64"});
   expectFailure(report(first, {"--against", (directory.path() / "nowhere").string()}), kUsage, {"nowhere"});
   expectFailure(report(directory.path(), {"--against", directory.path().string()}), kUsage, {"--output"});
   expectFailure(report(first, {"--sequence", (directory.path() / "nowhere").string()}), kInput, {"nowhere"});

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "samples/command_line/exit_code.h"
+#include "samples/command_line/shell_word.h"
 
 namespace walr {
 namespace {
@@ -35,6 +36,13 @@ TEST(Program, EndsWithTheFirstCodeForAnyOtherError) {
   std::string text;
   EXPECT_EQ(endOf([] { throw std::logic_error("a reason"); }, text), static_cast<int>(ExitCode::Internal));
   EXPECT_EQ(text, "name: a reason\n");
+}
+
+TEST(ShellWord, IsQuotedOnlyWhereTheShellWouldChangeIt) {
+  EXPECT_EQ(shellWord("w=walr:fast,blocks.size=4"), "w=walr:fast,blocks.size=4");
+  EXPECT_EQ(shellWord("my frames"), "'my frames'");
+  EXPECT_EQ(shellWord("it's"), "'it'\\''s'");
+  EXPECT_EQ(shellWord(""), "''");
 }
 
 }  // namespace
