@@ -49,8 +49,8 @@ TEST_P(WalrDriftTest, TheOutputDoesNotDriftAndMemoryDoesNotGrow) {
   // Windows of several iterations, whose taps meet edges, as in a larger image.
   method->set(blocks ? "walr.fit-window" : "walr_paper.fit-window", "off");
   method->set(blocks ? "blocks.iterations" : "regression.iterations", blocks ? "2" : "3");
-  // History lengths that follow the innovations outlast a cycle: with them, the means of the cycles would depend on each
-  // other, and wander by .04 %.
+  // History lengths that follow the innovations outlast a cycle: with them, the means of the cycles would depend on
+  // each other, and wander by .04 %.
   if (blocks) method->set("blocks.innovation-gain", "0");
   DenoiserRun run(device(), *method, kSize);
 
