@@ -19,7 +19,7 @@ layout(push_constant) uniform PushConstants { AntilagConstants constants; };
 
 ivec2 tilesOfImage() { return textureSize(tiles, 0); }
 const int kSharedLeast = 0;
-float windowWeight(int offset) { return 1.0; }
+float windowWeight(int offset) { return 1.0; }  // All tiles of the window count alike.
 #include "include/window_sum.glsl"
 
 void main() {

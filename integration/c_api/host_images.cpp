@@ -115,9 +115,13 @@ std::size_t imageIndex(std::string_view name) {
 
 void markRepeated(FrameImages& images) {
   for (std::size_t i = 0; i < kImageCount; ++i) {
-    for (std::size_t j = 0; j < i && images[i].given; ++j) {
+    for (std::size_t j = 0; j < i; ++j) {
       const WalrImage &first = images[j].image, &second = images[i].image;
-      if (!images[j].given || first.image != second.image) continue;
+      if (!images[i].given || !images[j].given || first.image != second.image) continue;
+      // Outputs come after inputs.
+      if (isWritten(i)) {
+        reject(j, "is also the output '" + std::string(imageName(i)) + "': use another image for the output");
+      }
       if (!sameState(first.acquire, second.acquire) || !sameState(first.release, second.release)) {
         reject(i, "is also the image '" + std::string(imageName(j)) + "', but in other states: give both the same");
       }

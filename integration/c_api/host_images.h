@@ -69,7 +69,7 @@ FrameImage checkedImage(std::size_t index, const WalrImage* image, const ImageNe
 using FrameImages = std::array<FrameImage, kImageCount>;
 
 /// Mark inputs that an earlier input is, too, so that no image is transitioned twice.
-/// @throws Error naming both if their states differ
+/// @throws Error naming both if one is an output, or if their states differ
 void markRepeated(FrameImages& images);
 
 /// Record the barriers from the host's work to the denoiser.

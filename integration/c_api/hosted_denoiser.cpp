@@ -246,16 +246,6 @@ FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
     if (description_.rectangle() && mayHoldRectangle(i)) needs.offset = {frame.offset[0], frame.offset[1]};
     images[i] = checkedImage(i, given[i], needs, device().context().view.queueFamily);
   }
-  for (std::size_t i = 0; i < kImageCount; ++i) {
-    for (std::size_t written = kOutputImage; written < kImageCount; ++written) {
-      const bool same =
-          images[i].given && images[written].given && images[i].image.image == images[written].image.image;
-      if (i == written || !same) continue;
-      throw Error(WALR_ERROR_INVALID_ARGUMENT, "image '" + std::string(imageName(i)) + "' is also the output '" +
-                                                   std::string(imageName(written)) +
-                                                   "': use another image for the output");
-    }
-  }
   markRepeated(images);
   return images;
 }

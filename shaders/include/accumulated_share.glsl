@@ -205,8 +205,8 @@ struct Measured {
   vec4 far;         // farProduct along both axes.
 };
 
-// Writes what this workgroup adds to the statistics, relative to its mean light: the noise of traced paths has a variance
-// about in proportion to the light, so that no workgroup outweighs its neighbours.
+// Writes what this workgroup adds to the statistics, relative to its mean light. The variance of traced light is about
+// proportional to the light, so that no workgroup outweighs its neighbours.
 void storeSums(Measured pixel) {
   const vec4 none = vec4(0.0), interiorOnly = pixel.edge ? none : pixel.statistics;
   const vec4 edgeOnly = pixel.edge ? pixel.statistics : none;

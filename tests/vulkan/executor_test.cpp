@@ -207,6 +207,18 @@ TEST_F(ExecutorTest, ImportWithoutImageIsRefusedByName) {
   EXPECT_THROW(executor.record(frame.commandBuffer, 2), std::out_of_range);
 }
 
+/// The texels that a frame writes to a bound image of the host.
+std::vector<std::uint32_t> frameInto(const vk::StagedImage& image, vk::Executor& executor, vk::FrameQueue& queue) {
+  const vk::Frame frame = queue.begin();
+  executor.record(frame.commandBuffer, frame.slot);
+  image.recordReadback(frame.commandBuffer, frame.slot);
+  queue.submit(frame);
+  queue.waitAll();
+  std::vector<std::uint32_t> texels(constant(0).size());
+  std::memcpy(texels.data(), image.staging(frame.slot).data(), texels.size() * sizeof(texels[0]));
+  return texels;
+}
+
 TEST_F(ExecutorTest, HostMayAlternateBetweenImages) {
   Graph graph;
   const Texture out = chain(graph, 0, 2);
@@ -220,14 +232,7 @@ TEST_F(ExecutorTest, HostMayAlternateBetweenImages) {
   for (std::size_t i = 0; i < 7; ++i) {
     const vk::StagedImage& image = images[i % images.size()];
     run.executor().bind(out, image.external());
-    const vk::Frame frame = queue.begin();
-    run.executor().record(frame.commandBuffer, frame.slot);
-    image.recordReadback(frame.commandBuffer, frame.slot);
-    queue.submit(frame);
-    queue.waitAll();
-    std::vector<std::uint32_t> texels(constant(0).size());
-    std::memcpy(texels.data(), image.staging(frame.slot).data(), texels.size() * sizeof(texels[0]));
-    EXPECT_EQ(texels, filled(2));
+    EXPECT_EQ(frameInto(image, run.executor(), queue), filled(2));
   }
   for (const vk::StagedImage& image : images) run.executor().forget(image.external());
 }
@@ -243,14 +248,7 @@ TEST_F(ExecutorTest, AnImportMayHaveMoreLevelsAndLayersThanWereDeclared) {
                               kFramesInFlight, "larger");
   run.executor().bind(out, image.external());
   vk::FrameQueue queue(context(), device().queue(), kFramesInFlight);
-  const vk::Frame frame = queue.begin();
-  run.executor().record(frame.commandBuffer, frame.slot);
-  image.recordReadback(frame.commandBuffer, frame.slot);
-  queue.submit(frame);
-  queue.waitAll();
-  std::vector<std::uint32_t> texels(constant(0).size());
-  std::memcpy(texels.data(), image.staging(frame.slot).data(), texels.size() * sizeof(texels[0]));
-  EXPECT_EQ(texels, filled(2));
+  EXPECT_EQ(frameInto(image, run.executor(), queue), filled(2));
   run.executor().forget(image.external());
 }
 
