@@ -106,6 +106,21 @@ struct Executor::State {
         {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
   }
 
+  void requireDeclared(ResourceVersion handle, const char* call) const {
+    if (handle.resource < graph.resources.size()) return;
+    throw std::invalid_argument(std::string(call) + ": the executor's graph declares no such resource");
+  }
+
+  void requireDeclared(const History& history, const char* call) const {
+    if (history.index < graph.histories.size()) return;
+    throw std::invalid_argument(std::string(call) + ": the executor's graph declares no such history");
+  }
+
+  void requireSlot(std::uint32_t slot) const {
+    if (slot < slots) return;
+    throw std::out_of_range("frame slot " + std::to_string(slot) + " of " + std::to_string(slots));
+  }
+
   void requireImport(ResourceVersion handle) const {
     if (handle.resource < graph.resources.size() && graph.resources[handle.resource].lifetime == Lifetime::Imported) {
       return;
@@ -195,10 +210,12 @@ void Executor::forget(const ExternalImage& image) {
 }
 
 VkImageUsageFlags Executor::usage(Texture texture) const {
+  state_->requireDeclared(texture, "usage");
   return state_->plan.resources[texture.resource].imageUsage;
 }
 
 VkBufferUsageFlags Executor::usage(Buffer buffer) const {
+  state_->requireDeclared(buffer, "usage");
   return state_->plan.resources[buffer.resource].bufferUsage;
 }
 
@@ -219,9 +236,7 @@ void Executor::replaceCode(const Shader& shader, std::vector<std::uint32_t> code
 
 void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot, const TimelinePoint& finished) {
   State& state = *state_;
-  if (slot >= state.slots) {
-    throw std::out_of_range("frame slot " + std::to_string(slot) + " of " + std::to_string(state.slots));
-  }
+  state.requireSlot(slot);
   state.requireBound();
   state.completions.require(slot, state.frames, finished);
   const bool first = state.frames == 0;
@@ -241,6 +256,7 @@ void Executor::record(VkCommandBuffer commandBuffer, std::uint32_t slot, const T
 }
 
 void Executor::resetHistory(const History& history) {
+  state_->requireDeclared(history, "resetHistory");
   state_->histories.reset(history.index);
 }
 
@@ -249,18 +265,22 @@ void Executor::resetAllHistory() {
 }
 
 HistoryStatus Executor::historyStatus(const History& history) const {
+  state_->requireDeclared(history, "historyStatus");
   return state_->histories.status(history.index);
 }
 
 VkImage Executor::image(Texture texture) const {
+  state_->requireDeclared(texture, "image");
   return state_->resources.image(texture.resource, state_->frame);
 }
 
 VkBuffer Executor::buffer(Buffer buffer) const {
+  state_->requireDeclared(buffer, "buffer");
   return state_->resources.buffer(buffer.resource, state_->frame);
 }
 
 std::span<const PassTime> Executor::passTimes(std::uint32_t slot) {
+  state_->requireSlot(slot);
   if (!state_->timestamps) return {};
   return state_->timestamps->read(slot);
 }

@@ -57,7 +57,9 @@ struct ExternalImage {
 /// Recording allocates nothing on the heap and creates no Vulkan object, except views of an imported image that is
 /// bound for the first time.
 ///
-/// Recorded frames must be submitted in the order of recording, all to one queue. Not thread-safe.
+/// Recorded frames must be submitted in the order of recording, all to one queue. Not thread-safe. Functions that take
+/// a resource or a history throw std::invalid_argument if the graph has none of this index, and those that take a slot
+/// std::out_of_range.
 class Executor {
  public:
   /// @param device must outlive the executor
@@ -107,7 +109,7 @@ class Executor {
   /// @param commandBuffer in the recording state, outside of a render pass
   /// @param slot 0 to framesInFlight - 1; the GPU must have finished the frame last recorded with it
   /// @param finished what the submission of this frame signals; optional. It must live until the slot is used again.
-  /// @throws Error naming an import that nothing is bound to, or std::out_of_range for the slot
+  /// @throws Error naming an import that nothing is bound to
   /// @throws also as `Completions::require` does; then nothing is recorded
   void record(VkCommandBuffer commandBuffer, std::uint32_t slot, const TimelinePoint& finished = {});
 

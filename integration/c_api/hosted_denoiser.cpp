@@ -94,9 +94,8 @@ const HostedDenoiser::Declared& HostedDenoiser::declare() {
     declared_->graph = std::move(graph);
     updates_ = true;
   } else {
-    Declared compiled = compile(std::move(graph));
-    retire();
-    declared_ = std::move(compiled);
+    declared_ = compile(std::move(graph));
+    rebuild_ = true;
   }
   stale_ = false;
   return *declared_;
@@ -137,6 +136,8 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
 
 void HostedDenoiser::build() {
   declare();
+  if (rebuild_) retire();
+  rebuild_ = false;
   if (!built_) {
     makeExecutor();
   } else if (updates_) {
@@ -162,7 +163,8 @@ void HostedDenoiser::makeExecutor() {
              .memory = declared_->plan.memory,
              .extent = extent,
              .inherits = inherits,
-             .lastFrame = std::nullopt};
+             .lastFrame = std::nullopt,
+             .times = {}};
   if (lint_) {
     const fg::Buffer counters = declared_->graph.lint;
     made.lint = inherits ? before->lint
@@ -278,7 +280,7 @@ void HostedDenoiser::record(VkCommandBuffer commandBuffer, const WalrFrame& fram
   uploadIfUsed(declared_->graph.host, std::as_bytes(std::span(&constants.host, 1)));
   const bool reset = resetRequested_ || (frame.flags & WALR_FRAME_RESET_HISTORY) != 0;
   if (reset) built_->executor->resetAllHistory();
-  collectCounts();
+  evaluateFinishedFrame();
   recordAcquire(device().context(), commandBuffer, images);
   recordGraph(commandBuffer, constants.camera, reset);
   recordRelease(device().context(), commandBuffer, images);
@@ -302,8 +304,9 @@ void HostedDenoiser::recordGraph(VkCommandBuffer commandBuffer, const FrameDescr
   built_->lint->recordAfter(commandBuffer, slot, first ? std::nullopt : std::optional(camera), description_.extent());
 }
 
-/// Read the counts of the frame that used the slot of the next one: the host has waited for it.
-void HostedDenoiser::collectCounts() {
+/// Read times and counts of the frame that used the slot of the next one: the host has waited for it.
+void HostedDenoiser::evaluateFinishedFrame() {
+  if (const auto times = built_->executor->passTimes(description_.slot()); !times.empty()) built_->times = times;
   if (built_->counters) built_->counters->collect(description_.slot());
   if (!lint_) return;
   for (const LintFinding& finding : built_->lint->collect(description_.slot())) {
@@ -367,15 +370,8 @@ WalrMemory HostedDenoiser::requiredMemory() {
   return memoryOf(declared.plan.memory, bytes);
 }
 
-std::span<const fg::vk::PassTime> HostedDenoiser::timings() {
-  if (!timestamps_ || !built_ || !built_->lastFrame) return {};
-  const std::uint64_t recorded = std::min<std::uint64_t>(*built_->lastFrame + 1, description_.slots());
-  for (std::uint64_t back = 0; back < recorded; ++back) {
-    const std::uint64_t slot = (*built_->lastFrame - back) % description_.slots();
-    const auto times = built_->executor->passTimes(static_cast<std::uint32_t>(slot));
-    if (!times.empty()) return times;
-  }
-  return {};
+std::span<const fg::vk::PassTime> HostedDenoiser::timings() const {
+  return built_ ? built_->times : std::span<const fg::vk::PassTime>();
 }
 
 }  // namespace walr::api

@@ -39,7 +39,8 @@ class HostedDenoiser {
   [[nodiscard]] WalrMemory memory() const;
   /// What `memory` will be after `prepare`.
   [[nodiscard]] WalrMemory requiredMemory();
-  [[nodiscard]] std::span<const fg::vk::PassTime> timings();
+  /// Times of the last evaluated frame; empty without timestamps.
+  [[nodiscard]] std::span<const fg::vk::PassTime> timings() const;
   [[nodiscard]] std::span<const LintFinding> findings() const;
   [[nodiscard]] std::vector<ViewInfo> views() const { return description_.views(); }
   /// @throws std::invalid_argument naming a view that does not exist, and the known ones
@@ -63,7 +64,8 @@ class HostedDenoiser {
     fg::MemoryReport memory;
     fg::Extent extent;
     bool inherits = false;  ///< Its first frame reads the histories of the `Built` that was retired last.
-    std::optional<std::uint64_t> lastFrame;  ///< Number of the last frame that uses it.
+    std::optional<std::uint64_t> lastFrame;   ///< Number of the last frame that uses it.
+    std::span<const fg::vk::PassTime> times;  ///< Of the last evaluated frame; the executor's.
 
     [[nodiscard]] std::uint64_t allocatedBytes(bool withLint = true) const;
   };
@@ -79,7 +81,7 @@ class HostedDenoiser {
   void dropFinished();
   [[nodiscard]] FrameImages checkedImages(const WalrFrame& frame) const;
   void bind(const FrameImages& images);
-  void collectCounts();
+  void evaluateFinishedFrame();
   void recordGraph(VkCommandBuffer commandBuffer, const FrameDescription& camera, bool reset);
   void uploadIfUsed(fg::Buffer buffer, std::span<const std::byte> bytes);
   void log(WalrLogLevel level, const std::string& text) const;
@@ -106,8 +108,9 @@ class HostedDenoiser {
   std::optional<std::string> view_;   ///< Written to the host's image.
   std::optional<Declared> declared_;  ///< The latest.
   bool stale_ = true;                 ///< Settings or size may have changed since.
+  bool rebuild_ = false;              ///< `built_` has another topology than `declared_`.
   bool updates_ = false;              ///< The executor does not have the constants of `declared_` yet.
-  std::optional<Built> built_;        ///< For the topology of `declared_`.
+  std::optional<Built> built_;        ///< What the last frame used, or the next one will.
   std::vector<Built> retired_;        ///< In use by frames in flight; the oldest first.
   bool resetRequested_ = false;
   FrameImages lastImages_{};

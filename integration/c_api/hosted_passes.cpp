@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -92,7 +93,10 @@ void HostedPasses::beginFrame(const WalrPassFrame& frame) {
   constants_ = constants;
   if (recording_) {
     recording_->begin(description_.frames());
-    if (timestamps_) timestamps_->beginFrame(recording_->slot());
+    if (timestamps_) {
+      if (auto times = timestamps_->read(recording_->slot()); !times.empty()) times_ = std::move(times);
+      timestamps_->beginFrame(recording_->slot());
+    }
     if (lint_) lint_->collect(recording_->slot());
     if (counters_) counters_->collect(recording_->slot());
     afterAnother_ = description_.frames() > 0;
@@ -159,17 +163,6 @@ HostedPasses::CountUse HostedPasses::useOf(std::uint32_t pass, fg::Buffer counts
     if (bindingOf(later, counts) != nullptr) return CountUse::Count;
   }
   return CountUse::CountLast;
-}
-
-std::vector<WalrPassTime> HostedPasses::timings() const {
-  if (!timestamps_) return {};
-  const std::uint64_t begun = std::min<std::uint64_t>(description_.frames(), description_.slots());
-  for (std::uint64_t back = 1; back <= begun; ++back) {
-    const std::uint64_t slot = (description_.frames() - back) % description_.slots();
-    std::vector<WalrPassTime> times = timestamps_->read(static_cast<std::uint32_t>(slot));
-    if (!times.empty()) return times;
-  }
-  return {};
 }
 
 std::span<const LintFinding> HostedPasses::findings() const {

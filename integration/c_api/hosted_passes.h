@@ -37,8 +37,8 @@ class HostedPasses {
   [[nodiscard]] std::span<const std::byte> frameConstants(std::uint32_t resource) const;
   void record(std::uint32_t pass, VkCommandBuffer commandBuffer, std::span<const WalrPassResource> resources);
   void forget(VkImage image, std::uint64_t identity);
-  /// Times of the last frame that the GPU has finished; empty without timestamps.
-  [[nodiscard]] std::vector<WalrPassTime> timings() const;
+  /// Times of the last evaluated frame; empty without timestamps.
+  [[nodiscard]] std::span<const WalrPassTime> timings() const { return times_; }
   /// @throws Error if the passes were created without lint
   [[nodiscard]] std::span<const LintFinding> findings() const;
   /// @throws Error if nothing is counted
@@ -62,6 +62,7 @@ class HostedPasses {
   std::optional<Constants> constants_;
   bool afterAnother_ = false;  ///< The frame begun last has a frame before it.
   std::optional<PassTimestamps> timestamps_;
+  std::vector<WalrPassTime> times_;
   std::optional<HostedLint> lint_;
   std::optional<HostedCounters> counters_;
 };

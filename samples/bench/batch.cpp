@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "samples/bench/bench_frame.h"
-#include "samples/bench/fingerprint.h"
 #include "samples/bench/npy.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/errors.h"
+#include "samples/image/fingerprint.h"
 #include "samples/metrics/flip.h"
 #include "samples/metrics/metrics.h"
 #include "samples/metrics/ssim.h"

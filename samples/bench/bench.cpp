@@ -7,10 +7,10 @@
 #include <span>
 
 #include "samples/bench/batch.h"
-#include "samples/bench/fingerprint.h"
 #include "samples/denoise/progress.h"
 #include "samples/errors.h"
 #include "samples/image/file_output.h"
+#include "samples/image/fingerprint.h"
 
 namespace walr {
 namespace {

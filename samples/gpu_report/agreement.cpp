@@ -5,11 +5,11 @@
 #include <string_view>
 
 #include "framegraph/vulkan/error.h"
-#include "samples/bench/fingerprint.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/errors.h"
 #include "samples/image/exr.h"
 #include "samples/image/file_output.h"
+#include "samples/image/fingerprint.h"
 #include "samples/metrics/metrics.h"
 
 namespace walr {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -102,12 +103,19 @@ bool fileExists(const std::string& file, void* /*user*/) {
   return fs::is_regular_file(file, error);
 }
 
-/// @param user  a std::uintmax_t: the bytes left of the limit for all files together
+/// What reading a file changes.
+struct FilesRead {
+  std::uintmax_t budget = kAllFiles;  ///< Bytes left of the limit for all files together.
+  Fingerprint* contents;
+};
+
+/// @param user  a FilesRead
 bool readFile(std::vector<unsigned char>* bytes, std::string* errors, const std::string& file, void* user) {
-  auto& budget = *static_cast<std::uintmax_t*>(user);
+  auto& files = *static_cast<FilesRead*>(user);
   try {
-    *bytes = readWholeFile(file, budget);
-    budget -= bytes->size();
+    *bytes = readWholeFile(file, files.budget);
+    files.budget -= bytes->size();
+    files.contents->add(std::as_bytes(std::span(*bytes)));
     return true;
   } catch (const SceneError& error) {
     *errors += file + ": " + error.what() + "\n";
@@ -126,9 +134,10 @@ std::string withoutTrailingNewlines(std::string text) {
 
 }  // namespace
 
-tinygltf::Model readModel(const std::filesystem::path& file) {
-  std::uintmax_t budget = kAllFiles;
-  const std::vector<unsigned char> bytes = readWholeFile(file, budget);
+tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint& contents) {
+  FilesRead files{.contents = &contents};
+  const std::vector<unsigned char> bytes = readWholeFile(file, files.budget);
+  contents.add(std::as_bytes(std::span(bytes)));
   checkNesting(jsonText(bytes));
 
   tinygltf::TinyGLTF parser;
@@ -137,7 +146,7 @@ tinygltf::Model readModel(const std::filesystem::path& file) {
   callbacks.FileExists = &fileExists;
   callbacks.ExpandFilePath = &samePath;
   callbacks.ReadWholeFile = &readFile;
-  callbacks.user_data = &budget;
+  callbacks.user_data = &files;
   parser.SetFsCallbacks(callbacks);
 
   tinygltf::Model model;

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "samples/image/fingerprint.h"
 #include "samples/render/gltf_convert.h"
 #include "samples/render/gltf_file.h"
 #include "samples/render/gltf_limits.h"
@@ -50,12 +51,15 @@ void checkContent(Scene& scene) {
 
 Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky) {
   std::optional<SkyMap> skyMap;
+  Fingerprint contents;
   if (!sky.empty()) {
     skyMap = loadSky(sky);
+    contents.addFile(sky);
   }
   try {
-    const tinygltf::Model model = gltf::readModel(file);
+    const tinygltf::Model model = gltf::readModel(file, contents);
     Scene scene;
+    scene.contents = contents.text();
     scene.skyMap = std::move(skyMap);
     checkExtensions(model, scene);
     gltf::checkUses(model);

@@ -38,12 +38,14 @@ const char* nameOf(Sampler::Kind kind) {
 // Only in the settings of the tracer on the GPU, whose frames differ from the processor's by rounding.
 constexpr const char* kTracerKey = "tracer";
 
-// The settings that pixels depend on. The range of frames is left out, because more frames may be added later. Of the
-// files only the scene's name and size and the sky's name are compared, so that other changes of them go unnoticed.
-nlohmann::json describe(const RenderOptions& options) {
+constexpr const char* kContentsKey = "scene_contents";
+
+// The settings that pixels depend on. The range of frames is left out, because more frames may be added later.
+nlohmann::json describe(const RenderOptions& options, const Scene& scene) {
   nlohmann::json settings = {
       {"scene", options.scene.filename().string()},
       {"scene_bytes", fs::file_size(options.scene)},
+      {kContentsKey, scene.contents},
       {"sky", options.sky.filename().string()},
       {"width", options.width},
       {"height", options.height},
@@ -66,9 +68,9 @@ nlohmann::json describe(const RenderOptions& options) {
 }
 
 // Ensures that all frames of a folder have the same settings: writes them, or compares them with those in the folder.
-void matchSettings(const RenderOptions& options) {
+void matchSettings(const RenderOptions& options, const Scene& scene) {
   const fs::path file = options.output / kSettingsFile;
-  const nlohmann::json settings = describe(options);
+  const nlohmann::json settings = describe(options, scene);
   std::error_code error;
   if (!fs::exists(file, error)) {
     const std::string text = settings.dump(2) + "\n";
@@ -82,8 +84,15 @@ void matchSettings(const RenderOptions& options) {
                      "'; use another --output or remove the folder");
   };
   for (const auto& [key, value] : settings.items()) {
+    if (key == kContentsKey) continue;
     const bool same = before.is_object() && before.contains(key) && before[key] == value;
     if (!same) refuse(key);
+  }
+  // Folders of earlier versions lack the contents.
+  if (before.contains(kContentsKey) && before[kContentsKey] != scene.contents) {
+    throw InputError(file.string() + ": the files of the scene '" + options.scene.string() +
+                     "' or of its sky have changed since the frames in this folder were rendered; use another --output "
+                     "or remove the folder");
   }
   if (before.contains(kTracerKey) && !settings.contains(kTracerKey)) refuse(kTracerKey);
 }
@@ -156,7 +165,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
   std::for_each(scene.warnings.begin(), scene.warnings.end(), observer.warning);
   const std::uint32_t camera = findCamera(scene, options.camera);
   prepareOutputDirectory(options.output);
-  matchSettings(options);
+  matchSettings(options, scene);
 
   World world(scene, options.otherTracer ? RayCasting::None : RayCasting::Embree);
   const std::unique_ptr<FrameTracer> tracer =

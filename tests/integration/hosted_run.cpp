@@ -124,6 +124,7 @@ HostedRun::HostedRun(const fg::test::TestDevice& device, const char* method, glm
   info.history_length = options.historyLength ? VK_TRUE : VK_FALSE;
   info.counters = options.counters ? VK_TRUE : VK_FALSE;
   info.lint = options.lint ? VK_TRUE : VK_FALSE;
+  info.timestamps = options.timestamps ? VK_TRUE : VK_FALSE;
   info.log = options.log;
   info.log_user = options.logUser;
   info.pipeline_cache = options.pipelineCache;

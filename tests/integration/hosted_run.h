@@ -33,6 +33,7 @@ class HostedRun {
     bool rememberedCamera = false;  ///< Let the library remember the previous camera.
     bool lint = false;
     bool counters = false;
+    bool timestamps = false;
     bool objectIds = false;                           ///< Give an image "object_id".
     VkFormat confidenceFormat = VK_FORMAT_UNDEFINED;  ///< Give an image "confidence".
     bool historyLength = false;

@@ -1,4 +1,5 @@
-// A queue without timestamps: the host is warned, and everything else works.
+// GPU times that the host reads.
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "tests/integration/hosted_run.h"
 #include "tests/integration/replaced_function.h"
+#include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
 namespace walr::test {
@@ -21,6 +23,48 @@ void keepWarning(void* user, WalrLogLevel level, const char* text) {
   if (level == WALR_LOG_WARNING) static_cast<std::vector<std::string>*>(user)->emplace_back(text);
 }
 
+std::uint32_t timeCount(WalrDenoiser denoiser) {
+  std::uint32_t count = 0;
+  require(walr_get_timings(denoiser, &count, nullptr));
+  return count;
+}
+
+class Timings : public fg::test::GpuTest {};
+
+// A frame's queries may be read once the host has waited for it, and that is certain when its slot is used again.
+TEST_F(Timings, OfAFrameAreKnownWhenItsSlotIsUsedAgain) {
+  constexpr glm::ivec2 kSize(53, 37);
+  HostedRun run(device(), "walr", kSize, {.timestamps = true, .framesInFlight = 2});
+  std::uint32_t recorded = 0;
+  const auto frame = [&] {
+    const FrameDescription camera = cameraAt({}, {}, kSize, recorded++);
+    run.fill(renderFrame(sphere(), camera, kSize));
+    run.frame(camera);
+  };
+  for (int i = 0; i < 2; ++i) {
+    frame();
+    EXPECT_EQ(timeCount(run.denoiser()), 0U);
+  }
+  frame();
+  EXPECT_GT(timeCount(run.denoiser()), 3U);
+  // Times and memory are those of the frames so far until the next one, even if the host asks what that will need.
+  require(walr_set_setting(run.denoiser(), "blocks.iterations", "1"));
+  WalrImageRequirements needs{};
+  needs.struct_size = sizeof(needs);
+  require(walr_get_image_requirements(run.denoiser(), "depth", &needs));
+  EXPECT_GT(timeCount(run.denoiser()), 3U);
+  WalrMemory memory{};
+  memory.struct_size = sizeof(memory);
+  require(walr_get_memory(run.denoiser(), &memory));
+  EXPECT_GT(memory.allocated, 0U);
+  EXPECT_EQ(memory.retired, 0U);
+  frame();
+  EXPECT_EQ(timeCount(run.denoiser()), 0U);
+  require(walr_get_memory(run.denoiser(), &memory));
+  EXPECT_GT(memory.retired, 0U);
+}
+
+// The host is warned, and everything else works.
 class QueueWithoutTimestamps : public fg::test::GpuTest {};
 
 TEST_F(QueueWithoutTimestamps, IsAWarningInBothWays) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <set>
 #include <string>
@@ -301,6 +303,26 @@ TEST(RenderSequence, RefusesToMixSettings) {
   render(options);
   options.bounces = 2;
   fg::test::expectError<InputError>([&] { render(options); }, {"'bounces'"});
+}
+
+TEST(RenderSequence, RefusesToMixStatesOfAScene) {
+  const walr::test::TemporaryDirectory folder;
+  const walr::test::TemporaryDirectory scenes;
+  RenderOptions options = smallBox(folder.path());
+  options.scene = scenes.path() / "box.gltf";
+  options.lastFrame = options.firstFrame;
+  fs::copy_file(WALR_SCENES "/box.gltf", options.scene);
+  render(options);
+  render(options);  // Nothing has changed.
+  // The same length, and another light.
+  std::ifstream before(options.scene);
+  std::string text(std::istreambuf_iterator<char>(before), {});
+  const std::size_t colour = text.find("\"emissiveFactor\"");
+  ASSERT_NE(colour, std::string::npos);
+  const std::size_t digit = text.find_first_of("123456789", colour);
+  text[digit] = text[digit] == '1' ? '0' : '1';
+  std::ofstream(options.scene) << text;
+  fg::test::expectError<InputError>([&] { render(options); }, {"box.gltf", "changed", "--output"});
 }
 
 TEST(RenderSequence, NamesAMissingScene) {

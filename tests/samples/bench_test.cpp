@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "samples/bench/bench_frame.h"
-#include "samples/bench/fingerprint.h"
 #include "samples/bench/frame_errors.h"
 #include "samples/bench/npy.h"
 #include "samples/bench/plan_costs.h"
@@ -19,6 +18,7 @@
 #include "samples/bench/sweep.h"
 #include "samples/bench/variant.h"
 #include "samples/errors.h"
+#include "samples/image/fingerprint.h"
 #include "tests/error_text.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"

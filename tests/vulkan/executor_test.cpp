@@ -252,6 +252,20 @@ TEST_F(ExecutorTest, AnImportMayHaveMoreLevelsAndLayersThanWereDeclared) {
   run.executor().forget(image.external());
 }
 
+TEST_F(ExecutorTest, HandlesAndSlotsThatItDoesNotHaveAreErrors) {
+  Graph graph;
+  chain(graph, 0, 2);
+  GraphRun run(device(), graph, {.timestamps = true});
+  vk::Executor& executor = run.executor();
+  EXPECT_THROW((void)executor.usage(Texture{}), std::invalid_argument);
+  EXPECT_THROW((void)executor.usage(Buffer{}), std::invalid_argument);
+  EXPECT_THROW((void)executor.image(Texture{}), std::invalid_argument);
+  EXPECT_THROW((void)executor.buffer(Buffer{}), std::invalid_argument);
+  EXPECT_THROW(executor.resetHistory(History{}), std::invalid_argument);
+  EXPECT_THROW((void)executor.historyStatus(History{}), std::invalid_argument);
+  EXPECT_THROW((void)executor.passTimes(kFramesInFlight), std::out_of_range);
+}
+
 TEST_F(ExecutorTest, TimestampsNameEveryPass) {
   Graph graph;
   chain(graph, 0, 3);

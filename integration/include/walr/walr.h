@@ -515,7 +515,9 @@ typedef struct WalrPassTime {
   double milliseconds;
 } WalrPassTime;
 
-/* GPU times of the last frame that the GPU has finished; none without WalrDenoiserInfo::timestamps.
+/* GPU times of the last frame that was evaluated; none without WalrDenoiserInfo::timestamps. A frame is evaluated when
+ * the one `frames_in_flight` after it is recorded. There are none until then. A change of settings or size that changes
+ * passes drops them until the next evaluation.
  * count: in: room at `times`; out: number of passes. `times` may be null. */
 WALR_API WalrResult walr_get_timings(WalrDenoiser denoiser, uint32_t* count, WalrPassTime* times);
 
@@ -558,10 +560,8 @@ typedef struct WalrCounter {
   uint64_t value;
 } WalrCounter;
 
-/* Counters of the last frame that was evaluated: those of the method with WalrDenoiserInfo::counters, and those of the
- * inputs ("lint-...") with WalrDenoiserInfo::lint. A frame is evaluated when the one `frames_in_flight` after it is
- * recorded. There are none until then. A change of settings or size that changes passes drops them until the next
- * evaluation.
+/* Counters of the last frame that was evaluated, see walr_get_timings: those of the method with
+ * WalrDenoiserInfo::counters, and those of the inputs ("lint-...") with WalrDenoiserInfo::lint.
  * count: in: room at `counters`; out: number of counters. `counters` may be null. */
 WALR_API WalrResult walr_get_counters(WalrDenoiser denoiser, uint32_t* count, WalrCounter* counters);
 

@@ -264,8 +264,9 @@ WALR_API WalrResult walr_record_pass(WalrPasses passes, uint32_t pass, VkCommand
 /* Destroy the views of an image; see walr_forget_image. */
 WALR_API WalrResult walr_forget_pass_image(WalrPasses passes, VkImage image, uint64_t identity);
 
-/* As walr_get_timings: GPU times of the passes of the last frame that the GPU has finished, each from the end of the
- * commands before it. Valid as long as the passes. */
+/* As walr_get_timings: GPU times of the passes of the last evaluated frame, each from the end of the commands before
+ * it. A frame is evaluated when walr_begin_frame begins the one `frames_in_flight` after it. Names are valid as long as
+ * the passes. */
 WALR_API WalrResult walr_get_pass_timings(WalrPasses passes, uint32_t* count, WalrPassTime* times);
 /* As walr_get_findings, for passes of a whole method. With WalrDenoiserInfo::lint, the list has two more passes. A
  * frame in which they are not recorded is not checked; leave them out in a frame that follows a camera cut. A new

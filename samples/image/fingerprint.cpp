@@ -1,4 +1,4 @@
-#include "samples/bench/fingerprint.h"
+#include "samples/image/fingerprint.h"
 
 #include <fstream>
 #include <iomanip>
