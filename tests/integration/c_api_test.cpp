@@ -154,7 +154,10 @@ TEST_F(CApi, LogsEachFindingOnce) {
     if (!good) {
       EXPECT_NE(log[0].find("Way out: negate this axis"), std::string::npos) << log[0];
     }
+    // They are of the frames so far until there is one of the new size.
     run.resize({40, 45});
+    EXPECT_EQ(findingsOf(run.denoiser()).size(), log.size());
+    require(walr_prepare(run.denoiser()));
     EXPECT_EQ(findingsOf(run.denoiser()), Names{});
   }
   // A denoiser without lint has no findings to return.

@@ -516,8 +516,8 @@ typedef struct WalrPassTime {
 } WalrPassTime;
 
 /* GPU times of the last frame that was evaluated; none without WalrDenoiserInfo::timestamps. A frame is evaluated when
- * the one `frames_in_flight` after it is recorded. There are none until then. A change of settings or size that changes
- * passes drops them until the next evaluation.
+ * the one `frames_in_flight` after it is recorded. There are none until then. After a change of settings or size
+ * that changes passes, walr_prepare or the next frame drops them until the next evaluation.
  * count: in: room at `times`; out: number of passes. `times` may be null. */
 WALR_API WalrResult walr_get_timings(WalrDenoiser denoiser, uint32_t* count, WalrPassTime* times);
 
@@ -530,8 +530,8 @@ typedef struct WalrFinding {
 } WalrFinding;
 
 /* Likely faults found in the frames that the GPU has finished; needs WalrDenoiserInfo::lint. A frame is evaluated when
- * the one `frames_in_flight` after it is recorded. A new finding is also logged. A new size drops all findings, unless
- * WalrConventions::rectangle is set.
+ * the one `frames_in_flight` after it is recorded. A new finding is also logged. walr_prepare or the first frame at a
+ * new size drops all findings, unless WalrConventions::rectangle is set.
  * count: in: room at `findings`; out: number of findings. `findings` may be null. */
 WALR_API WalrResult walr_get_findings(WalrDenoiser denoiser, uint32_t* count, WalrFinding* findings);
 
