@@ -22,7 +22,13 @@ constexpr std::uintmax_t kAllFiles = std::uintmax_t{1} << 32U;
 // levels.
 constexpr int kDeepestNesting = 128;
 
-std::vector<unsigned char> readWholeFile(const fs::path& file, std::uintmax_t budget) {
+/// The files of a scene that are read one after the other.
+struct FilesRead {
+  std::uintmax_t budget = kAllFiles;  ///< Bytes left of the limit for all files together.
+  Fingerprint* contents = nullptr;    ///< Takes in the bytes; may be null.
+};
+
+std::vector<unsigned char> readWholeFile(const fs::path& file, const FilesRead& files) {
   std::error_code error;
   if (!fs::exists(file, error)) {
     throw SceneError("no such file");
@@ -34,7 +40,7 @@ std::vector<unsigned char> readWholeFile(const fs::path& file, std::uintmax_t bu
   if (error || size > kLargestFile) {
     throw SceneError(error ? error.message() : "larger than 2 GiB");
   }
-  if (size > budget) {
+  if (size > files.budget) {
     throw SceneError("the scene's files exceed 4 GiB in all; a file counts once for each time it is named");
   }
   std::vector<unsigned char> bytes(size);
@@ -42,6 +48,7 @@ std::vector<unsigned char> readWholeFile(const fs::path& file, std::uintmax_t bu
   if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
     throw SceneError("cannot be read");
   }
+  if (files.contents != nullptr) files.contents->add(std::as_bytes(std::span(bytes)));
   return bytes;
 }
 
@@ -103,19 +110,12 @@ bool fileExists(const std::string& file, void* /*user*/) {
   return fs::is_regular_file(file, error);
 }
 
-/// What reading a file changes.
-struct FilesRead {
-  std::uintmax_t budget = kAllFiles;  ///< Bytes left of the limit for all files together.
-  Fingerprint* contents;
-};
-
 /// @param user  a FilesRead
 bool readFile(std::vector<unsigned char>* bytes, std::string* errors, const std::string& file, void* user) {
   auto& files = *static_cast<FilesRead*>(user);
   try {
-    *bytes = readWholeFile(file, files.budget);
+    *bytes = readWholeFile(file, files);
     files.budget -= bytes->size();
-    files.contents->add(std::as_bytes(std::span(*bytes)));
     return true;
   } catch (const SceneError& error) {
     *errors += file + ": " + error.what() + "\n";
@@ -134,10 +134,9 @@ std::string withoutTrailingNewlines(std::string text) {
 
 }  // namespace
 
-tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint& contents) {
-  FilesRead files{.contents = &contents};
-  const std::vector<unsigned char> bytes = readWholeFile(file, files.budget);
-  contents.add(std::as_bytes(std::span(bytes)));
+tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* contents) {
+  FilesRead files{.contents = contents};
+  const std::vector<unsigned char> bytes = readWholeFile(file, files);
   checkNesting(jsonText(bytes));
 
   tinygltf::TinyGLTF parser;

@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "samples/image/fingerprint.h"
 #include "samples/render/gltf_convert.h"
 #include "samples/render/gltf_file.h"
 #include "samples/render/gltf_limits.h"
@@ -49,17 +48,15 @@ void checkContent(Scene& scene) {
 
 }  // namespace
 
-Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky) {
+Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky, Fingerprint* contents) {
   std::optional<SkyMap> skyMap;
-  Fingerprint contents;
   if (!sky.empty()) {
     skyMap = loadSky(sky);
-    contents.addFile(sky);
+    if (contents != nullptr) contents->addFile(sky);
   }
   try {
     const tinygltf::Model model = gltf::readModel(file, contents);
     Scene scene;
-    scene.contents = contents.text();
     scene.skyMap = std::move(skyMap);
     checkExtensions(model, scene);
     gltf::checkUses(model);

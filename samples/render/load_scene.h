@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "samples/image/fingerprint.h"
 #include "samples/render/scene.h"
 
 namespace walr::render {
@@ -14,6 +15,7 @@ inline constexpr std::string_view kNoLightWarning =
 
 /// Read a glTF 2.0 file (.gltf or .glb) with everything that it refers to.
 /// @param sky  file of an equirectangular sky (see `loadSky`) that replaces the scene's own; may be empty
+/// @param contents  takes in the bytes of all files that are read; may be null
 ///
 /// Supported: the default scene's nodes, triangle meshes (float attributes; normalised integer texture coordinates),
 /// base colour, metallic, emissive and normal textures of TEXCOORD_0, alpha mode MASK, perspective cameras, LINEAR and
@@ -24,6 +26,7 @@ inline constexpr std::string_view kNoLightWarning =
 /// @throws SceneError naming the file and the part that is missing, truncated, malformed or larger than a limit: 2 GiB
 ///         per file and 4 GiB in all; 16384 texels a side and 1 GiB of texels in all; 2^27 vertices, indices and keys;
 ///         2^26 triangles
-Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky = {});
+Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky = {},
+                Fingerprint* contents = nullptr);
 
 }  // namespace walr::render

@@ -11,6 +11,7 @@
 #include "samples/errors.h"
 #include "samples/image/exr.h"
 #include "samples/image/file_output.h"
+#include "samples/image/fingerprint.h"
 #include "samples/render/film.h"
 #include "samples/render/load_scene.h"
 #include "samples/render/sequence_frame.h"
@@ -41,11 +42,11 @@ constexpr const char* kTracerKey = "tracer";
 constexpr const char* kContentsKey = "scene_contents";
 
 // The settings that pixels depend on. The range of frames is left out, because more frames may be added later.
-nlohmann::json describe(const RenderOptions& options, const Scene& scene) {
+nlohmann::json describe(const RenderOptions& options, const std::string& contents) {
   nlohmann::json settings = {
       {"scene", options.scene.filename().string()},
       {"scene_bytes", fs::file_size(options.scene)},
-      {kContentsKey, scene.contents},
+      {kContentsKey, contents},
       {"sky", options.sky.filename().string()},
       {"width", options.width},
       {"height", options.height},
@@ -68,9 +69,9 @@ nlohmann::json describe(const RenderOptions& options, const Scene& scene) {
 }
 
 // Ensures that all frames of a folder have the same settings: writes them, or compares them with those in the folder.
-void matchSettings(const RenderOptions& options, const Scene& scene) {
+void matchSettings(const RenderOptions& options, const std::string& contents) {
   const fs::path file = options.output / kSettingsFile;
-  const nlohmann::json settings = describe(options, scene);
+  const nlohmann::json settings = describe(options, contents);
   std::error_code error;
   if (!fs::exists(file, error)) {
     const std::string text = settings.dump(2) + "\n";
@@ -89,7 +90,7 @@ void matchSettings(const RenderOptions& options, const Scene& scene) {
     if (!same) refuse(key);
   }
   // Folders of earlier versions lack the contents.
-  if (before.contains(kContentsKey) && before[kContentsKey] != scene.contents) {
+  if (before.contains(kContentsKey) && before[kContentsKey] != contents) {
     throw InputError(file.string() + ": the files of the scene '" + options.scene.string() +
                      "' or of its sky have changed since the frames in this folder were rendered; use another --output "
                      "or remove the folder");
@@ -160,12 +161,13 @@ std::size_t RenderOptions::files() const {
 }
 
 void renderSequence(const RenderOptions& options, const RenderObserver& observer) {
-  Scene scene = loadScene(options.scene, options.sky);
+  Fingerprint contents;
+  Scene scene = loadScene(options.scene, options.sky, &contents);
   scene.diffuseModel = options.diffuseModel;
   std::for_each(scene.warnings.begin(), scene.warnings.end(), observer.warning);
   const std::uint32_t camera = findCamera(scene, options.camera);
   prepareOutputDirectory(options.output);
-  matchSettings(options, scene);
+  matchSettings(options, contents.text());
 
   World world(scene, options.otherTracer ? RayCasting::None : RayCasting::Embree);
   const std::unique_ptr<FrameTracer> tracer =

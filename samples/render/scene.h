@@ -122,7 +122,6 @@ struct Scene {
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
   glm::vec3 skyRadiance{0.0F};  ///< Constant, linear RGB; used without a map.
   std::optional<SkyMap> skyMap;
-  std::string contents;               ///< Fingerprint of all files that the scene was read from.
   std::vector<std::string> warnings;  ///< Features of the file that are not supported, and values that were replaced.
 };
 

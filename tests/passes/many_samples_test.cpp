@@ -177,7 +177,9 @@ TEST_F(ManySamples, ErrorsFallForAsLongAsTheCameraStandsStill) {
     const double best = accumulated * predicted / std::hypot(accumulated, predicted);
     // Noise may shorten history by 1 / 1.28 (blocks.innovation-bias), which raises the error of accumulated light by
     // its root, 1.13, and that of the mixture by less.
-    EXPECT_LT(mixed, 1.13 * best) << "frame " << i;
+    EXPECT_LT(mixed, 1.1 * best) << "frame " << i;
+    // In the last frame the two are level, and the mixture differs by .08 % between lavapipe and an NVIDIA H200.
+    EXPECT_LT(mixed, 1.001 * accumulated) << "frame " << i;
   }
 }
 
