@@ -17,9 +17,12 @@ if(WALR_STATIC_LIBRARIES)
   install(TARGETS walr_framegraph walr_framegraph_vulkan walr_shaders walr_passes walr_integration
     EXPORT walr-cpp ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT cpp)
   foreach(folder IN ITEMS framegraph/declare framegraph/plan framegraph/check framegraph/compile framegraph/verify
-      framegraph/inspect framegraph/vulkan passes shaders/constants integration)
-    file(GLOB headers CONFIGURE_DEPENDS "${folder}/*.h")
-    install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/walr/${folder}" COMPONENT cpp)
+      framegraph/inspect framegraph/vulkan passes/* shaders/* integration)
+    file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${folder}/*.h")
+    foreach(header IN LISTS headers)
+      cmake_path(GET header PARENT_PATH place)
+      install(FILES ${header} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/walr/${place}" COMPONENT cpp)
+    endforeach()
   endforeach()
 endif()
 

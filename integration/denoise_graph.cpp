@@ -3,11 +3,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "passes/history_length.h"
-#include "passes/light_direction.h"
-#include "passes/lint_inputs.h"
-#include "passes/shared_guides.h"
-#include "shaders/constants/frame.h"
+#include "passes/conventions/light_direction.h"
+#include "passes/guides/shared_guides.h"
+#include "passes/lint/lint_inputs.h"
+#include "passes/stage/history_length.h"
+#include "shaders/conventions/frame.h"
 
 namespace walr {
 

@@ -5,9 +5,9 @@
 
 #include "framegraph/declare/graph.h"
 #include "integration/host_inputs.h"
-#include "passes/convert_inputs.h"
-#include "passes/denoiser.h"
-#include "passes/inspection.h"
+#include "passes/guides/convert_inputs.h"
+#include "passes/methods/denoiser.h"
+#include "passes/stage/inspection.h"
 
 namespace walr {
 

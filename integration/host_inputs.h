@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "passes/inputs.h"
+#include "passes/conventions/inputs.h"
 
 namespace walr {
 

@@ -8,9 +8,9 @@
 #include "framegraph/declare/format.h"
 #include "integration/host_inputs.h"
 #include "integration/stages.h"
-#include "passes/grid_extent.h"
-#include "passes/text.h"
-#include "shaders/constants/frame.h"
+#include "passes/settings/text.h"
+#include "passes/stage/grid_extent.h"
+#include "shaders/conventions/frame.h"
 
 namespace walr {
 namespace {

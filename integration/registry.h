@@ -8,7 +8,7 @@
 #include "framegraph/declare/graph.h"
 #include "integration/ports.h"
 #include "integration/setting_info.h"
-#include "passes/inputs.h"
+#include "passes/conventions/inputs.h"
 
 /// Pass types by name. A host's graph editor or scripting layer can list, create, connect and configure them. Ports,
 /// formats and accesses are not listed by hand: each type declares its passes in a scratch graph, and they are read

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/settings.h"
+#include "passes/settings/settings.h"
 
 namespace walr {
 

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "integration/host_inputs.h"
-#include "passes/grid_extent.h"
-#include "passes/text.h"
+#include "passes/settings/text.h"
+#include "passes/stage/grid_extent.h"
 
 namespace walr {
 namespace {

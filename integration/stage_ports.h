@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "integration/ports.h"
-#include "passes/inputs.h"
-#include "passes/prepare_guides.h"
+#include "passes/conventions/inputs.h"
+#include "passes/guides/prepare_guides.h"
 
 namespace walr {
 

@@ -4,18 +4,18 @@
 #include <string>
 
 #include "integration/host_inputs.h"
-#include "passes/block_regression.h"
-#include "passes/bmfr_accumulation.h"
-#include "passes/bmfr_fit.h"
-#include "passes/denoiser.h"
-#include "passes/flr_regression.h"
-#include "passes/full_window_regression.h"
-#include "passes/joint_bilateral_filter.h"
-#include "passes/pass_through.h"
-#include "passes/temporal_accumulation.h"
-#include "passes/temporal_antialiasing.h"
-#include "passes/weighted_regression.h"
-#include "shaders/constants/antilag.h"
+#include "passes/filters/joint_bilateral_filter.h"
+#include "passes/methods/denoiser.h"
+#include "passes/regression/block_regression.h"
+#include "passes/regression/bmfr_fit.h"
+#include "passes/regression/flr_regression.h"
+#include "passes/regression/full_window_regression.h"
+#include "passes/regression/weighted_regression.h"
+#include "passes/stage/pass_through.h"
+#include "passes/temporal/bmfr_accumulation.h"
+#include "passes/temporal/temporal_accumulation.h"
+#include "passes/temporal/temporal_antialiasing.h"
+#include "shaders/temporal/antilag.h"
 
 namespace walr {
 namespace {

@@ -6,10 +6,29 @@ names.
 
 Each folder of the frame graph is one step of its work. The verifier replays plans with a model of its own. It may
 include the declarations and the plan, which it compares, and nothing of the compiler.
+
+The folders of `passes` and `shaders` have the same names, and one rule is for both: passes/temporal and shaders/temporal
+may use the folders that `ROOMS` names for "temporal".
 """
 import pathlib
+import posixpath
 import re
 import sys
+
+# What the folders of `passes` and `shaders` may use beside themselves.
+GUIDES = ("settings", "conventions", "stage", "guides")
+ROOMS = {
+    "settings": (),
+    "conventions": ("settings",),
+    "stage": ("settings", "conventions"),
+    "guides": ("settings", "conventions", "stage"),
+    "temporal": GUIDES,
+    "regression": (*GUIDES, "temporal"),
+    "filters": (*GUIDES, "temporal"),
+    "network": (*GUIDES, "regression"),
+    "lint": ("conventions", "stage"),
+    "methods": (*GUIDES, "temporal", "regression", "filters", "network"),
+}
 
 ALLOWED = {
     "framegraph/declare": set(),
@@ -20,7 +39,9 @@ ALLOWED = {
     "framegraph/inspect": {"framegraph/declare", "framegraph/plan", "framegraph/compile"},
     "framegraph/vulkan": {"framegraph/declare", "framegraph/plan"},
     "framegraph/tools": {"framegraph/declare"},
-    "passes": {"framegraph/declare", "framegraph/plan", "shaders"},
+    **{f"passes/{room}": {"framegraph/declare", "framegraph/plan", f"shaders/{room}"}
+       | {f"{top}/{other}" for other in others for top in ("passes", "shaders")}
+       for room, others in ROOMS.items()},
     "integration": {"framegraph", "passes", "shaders"},
     **{f"samples/{name}": {"framegraph", "passes", "shaders", "integration", "samples/errors.h"}
        | {f"samples/{other}" for other in others}
@@ -40,7 +61,8 @@ ALLOWED = {
            "embedding": (),
        }.items()},
     "samples": set(),
-    "shaders": set(),
+    **{f"shaders/{room}": {"shaders/common"} | {f"shaders/{other}" for other in others} for room, others in ROOMS.items()},
+    "shaders/common": set(),
 }
 # The verifier may include the two data structures, but no function that the compiler uses to interpret them.
 VERIFIER_HEADERS = {"framegraph/declare/graph.h", "framegraph/plan/plan.h"}
@@ -52,9 +74,19 @@ def longest_prefix(path, folders):
     return max((f for f in folders if path.startswith(f + "/")), key=len, default=None)
 
 
+def included_by(source, name):
+    """What a source includes, as paths from the root. Shaders name each other from `shaders`."""
+    for included in INCLUDE.findall(source.read_text()):
+        if name.startswith("shaders/"):
+            base = posixpath.dirname(name) if included.startswith("../") or source.suffix == ".h" else "shaders"
+            yield posixpath.normpath(posixpath.join(base, included))
+        else:
+            yield included
+
+
 def violations(root):
     folders = set(ALLOWED) | {"tests"}
-    sources = [p for pattern in ("*.h", "*.cpp", "*.c") for top in {f.split("/")[0] for f in ALLOWED}
+    sources = [p for pattern in ("*.h", "*.cpp", "*.c", "*.comp", "*.glsl") for top in {f.split("/")[0] for f in ALLOWED}
                for p in (root / top).rglob(pattern)]
     if not sources:
         sys.exit(f"{root} contains no source")
@@ -64,7 +96,7 @@ def violations(root):
         if folder is None:
             yield f"{name}: its folder has no line in {pathlib.Path(__file__).name}"
             continue
-        for included in INCLUDE.findall(source.read_text()):
+        for included in included_by(source, name):
             target = longest_prefix(included, folders)
             if target is None or target == folder:
                 continue  # A system header in quotes, or a neighbour.

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "framegraph/vulkan/memory_barrier.h"
-#include "passes/inspection.h"
+#include "passes/stage/inspection.h"
 
 namespace walr::api {
 

@@ -18,8 +18,8 @@
 #include "framegraph/plan/plan.h"
 #include "integration/c_api/host_images.h"
 #include "integration/single_stage.h"
-#include "passes/denoiser.h"
-#include "passes/frame.h"
+#include "passes/conventions/frame.h"
+#include "passes/methods/denoiser.h"
 
 namespace walr::api {
 

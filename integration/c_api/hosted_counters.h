@@ -7,7 +7,7 @@
 #include <walr/walr.h>
 
 #include "integration/c_api/count_buffer.h"
-#include "passes/inspection.h"
+#include "passes/stage/inspection.h"
 
 namespace walr::api {
 

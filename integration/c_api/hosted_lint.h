@@ -9,7 +9,7 @@
 #include <walr/walr.h>
 
 #include "integration/c_api/count_buffer.h"
-#include "passes/input_linter.h"
+#include "passes/lint/input_linter.h"
 
 namespace walr::api {
 

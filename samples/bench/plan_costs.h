@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "framegraph/declare/graph.h"
-#include "passes/inputs.h"
+#include "passes/conventions/inputs.h"
 #include "samples/bench/variant.h"
 
 namespace walr {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "passes/text.h"
+#include "passes/settings/text.h"
 
 namespace walr {
 namespace {

@@ -6,11 +6,11 @@
 #include <cstring>
 #include <string_view>
 
-#include "passes/flr_regression.h"
-#include "shaders/constants/antilag.h"
-#include "shaders/constants/block_regression.h"
-#include "shaders/constants/flr.h"
-#include "shaders/constants/guide_network.h"
+#include "passes/regression/flr_regression.h"
+#include "shaders/network/guide_network.h"
+#include "shaders/regression/block_regression.h"
+#include "shaders/regression/flr.h"
+#include "shaders/temporal/antilag.h"
 
 namespace walr {
 namespace {

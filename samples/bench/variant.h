@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 
 namespace walr {
 

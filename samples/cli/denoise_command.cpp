@@ -13,7 +13,7 @@
 
 #include "framegraph/vulkan/instance.h"
 #include "framegraph/vulkan/physical_device.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"

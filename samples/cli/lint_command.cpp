@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "passes/denoiser.h"
-#include "passes/input_linter.h"
+#include "passes/lint/input_linter.h"
+#include "passes/methods/denoiser.h"
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/device_options.h"

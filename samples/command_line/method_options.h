@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 
 namespace walr {
 

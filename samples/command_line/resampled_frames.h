@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "passes/light_pattern.h"
+#include "passes/conventions/light_pattern.h"
 
 namespace walr {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "framegraph/vulkan/staged_image.h"
-#include "passes/light_direction.h"
+#include "passes/conventions/light_direction.h"
 #include "samples/denoise/device_graph.h"
 
 namespace walr {

@@ -9,7 +9,7 @@
 #include "framegraph/vulkan/shared_objects.h"
 #include "framegraph/vulkan/timestamps.h"
 #include "integration/denoise_graph.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/denoise/packed_frame.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framegraph/vulkan/shared_objects.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/denoise/packed_frame.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/frame.h"
+#include "passes/conventions/frame.h"
 #include "samples/sequence/frame.h"
 
 namespace walr {

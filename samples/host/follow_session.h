@@ -3,7 +3,7 @@
 #include <string>
 
 #include "framegraph/declare/graph.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/host/live_frame.h"
 #include "samples/host/session.h"
 

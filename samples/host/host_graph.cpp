@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "framegraph/vulkan/staged_image.h"
-#include "passes/inspection.h"
+#include "passes/stage/inspection.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/host/shaders/view_constants.h"
-#include "shaders/constants/frame.h"
+#include "shaders/conventions/frame.h"
 
 namespace walr::host {
 namespace {

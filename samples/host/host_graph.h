@@ -8,7 +8,7 @@
 
 #include "framegraph/declare/graph.h"
 #include "framegraph/vulkan/device_context.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/gpu_render/gpu_scene.h"
 #include "samples/gpu_render/trace_pass.h"
 #include "samples/host/host_passes.h"

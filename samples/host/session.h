@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/host/camera_control.h"
 #include "samples/host/host_graph.h"
 #include "samples/host/setting_values.h"

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "passes/settings.h"
+#include "passes/settings/settings.h"
 
 namespace walr::host {
 

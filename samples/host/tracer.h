@@ -10,7 +10,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "framegraph/declare/graph.h"
-#include "passes/light_pattern.h"
+#include "passes/conventions/light_pattern.h"
 #include "samples/gpu_render/gpu_scene.h"
 #include "samples/host/host_frame.h"
 #include "samples/host/traced_rays.h"

@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "passes/light_pattern.h"
+#include "passes/conventions/light_pattern.h"
 #include "samples/render/gbuffer.h"
 #include "samples/render/resampling.h"
 #include "samples/render/sampler.h"

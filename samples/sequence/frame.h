@@ -9,7 +9,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
-#include "passes/light_pattern.h"
+#include "passes/conventions/light_pattern.h"
 #include "samples/image/image.h"
 
 namespace walr {
@@ -19,7 +19,7 @@ inline constexpr float kBackgroundDepth = 1e10F;
 /// Pixels with at least this linear view depth are sky.
 inline constexpr float kSkyDepth = 1e9F;
 
-/// The camera of one frame. See `FrameDescription` (passes/frame.h) for the conventions.
+/// The camera of one frame. See `FrameDescription` (passes/conventions/frame.h) for the conventions.
 struct Camera {
   glm::mat4 view{1.0F};          ///< World to view space.
   glm::mat4 previousView{1.0F};  ///< `view` of the frame before.

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "passes/text.h"
+#include "passes/settings/text.h"
 #include "samples/errors.h"
 
 namespace walr {

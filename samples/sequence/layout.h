@@ -7,7 +7,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/image/exr.h"
 #include "samples/sequence/frame.h"
 

@@ -9,7 +9,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include "passes/light_pattern.h"
+#include "passes/conventions/light_pattern.h"
 #include "samples/errors.h"
 #include "samples/sequence/cameras.h"
 

@@ -3,7 +3,7 @@
 
     export_weights.py --state FILE --cache DIR --project .
 
-It writes three files of the project: the weights, passes/weights/flnr_PRESET.f16; their record, flnr_PRESET.json beside them; and the
+It writes three files of the project: the weights, passes/network/weights/flnr_PRESET.f16; their record, flnr_PRESET.json beside them; and the
 fixture, tests/passes/fixtures/flnr_PRESET.txt. The fixture is a small frame and the guides that PyTorch makes of it with these weights,
 for the tests of the shaders.
 """
@@ -108,7 +108,7 @@ def main():
         sys.exit(f"{options.state}: holds the experiment {preset}, which no shader computes; train one of {', '.join(PRESETS)}")
     network = GuideNetwork(**PRESETS[preset])
     network.load_state_dict(state["average"])
-    output = options.project / f"passes/weights/flnr_{preset}.f16"
+    output = options.project / f"passes/network/weights/flnr_{preset}.f16"
     halves(network).tofile(output)
     (options.project / f"tests/passes/fixtures/flnr_{preset}.txt").write_text(fixture(network, preset), encoding="utf-8")
     trained, held_out = scenes(options.cache)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/bench/plan_costs.h"
 
 namespace walr::costs {

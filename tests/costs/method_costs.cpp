@@ -6,7 +6,7 @@
 
 #include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/bench/taps.h"
 #include "samples/estimate/frame_estimate.h"
 #include "samples/estimate/plan_work.h"

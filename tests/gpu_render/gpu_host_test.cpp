@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "framegraph/vulkan/frame_queue.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/device_memory.h"
 #include "samples/host/headless.h"

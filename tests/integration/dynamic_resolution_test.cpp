@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "passes/accumulate.h"
+#include "passes/methods/accumulate.h"
 #include "tests/integration/hosted_run.h"
 #include "tests/passes/denoiser_run.h"
 #include "tests/passes/reference/temporal_accumulation.h"

@@ -15,10 +15,10 @@
 #include "framegraph/declare/format.h"
 #include "integration/denoise_graph.h"
 #include "integration/host_inputs.h"
-#include "passes/denoiser.h"
-#include "passes/history_length.h"
-#include "passes/inspection.h"
-#include "passes/light_direction.h"
+#include "passes/conventions/light_direction.h"
+#include "passes/methods/denoiser.h"
+#include "passes/stage/history_length.h"
+#include "passes/stage/inspection.h"
 #include "tests/guide_table.h"
 
 namespace walr {

@@ -14,7 +14,7 @@
 
 #include "framegraph/vulkan/frame_queue.h"
 #include "framegraph/vulkan/staged_image.h"
-#include "passes/frame.h"
+#include "passes/conventions/frame.h"
 #include "tests/passes/reference/frame.h"
 #include "tests/vulkan/test_device.h"
 

@@ -1,6 +1,6 @@
 // Views and counters of methods. No device is needed.
 
-#include "passes/inspection.h"
+#include "passes/stage/inspection.h"
 
 #include <algorithm>
 #include <set>

@@ -11,7 +11,7 @@
 #include <walr/walr_passes.h>
 
 #include "framegraph/vulkan/memory.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "tests/integration/device_calls.h"
 #include "tests/integration/hosted_run.h"
 #include "tests/passes/synthetic_scene.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "tests/error_text.h"
 #include "tests/integration/hosted_run.h"
 #include "tests/passes/reference/storage.h"

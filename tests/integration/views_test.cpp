@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <walr/walr_passes.h>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "tests/integration/hosted_run.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"

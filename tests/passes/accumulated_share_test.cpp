@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "shaders/constants/antilag.h"
+#include "shaders/temporal/antilag.h"
 #include "tests/passes/block_filter.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/reference/moments.h"

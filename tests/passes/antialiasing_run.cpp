@@ -1,6 +1,6 @@
 #include "tests/passes/antialiasing_run.h"
 
-#include "passes/antilag.h"
+#include "passes/temporal/antilag.h"
 
 namespace walr::test {
 

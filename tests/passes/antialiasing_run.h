@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "passes/temporal_antialiasing.h"
+#include "passes/temporal/temporal_antialiasing.h"
 #include "tests/passes/host_textures.h"
 #include "tests/vulkan/graph_run.h"
 #include "tests/vulkan/test_device.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "passes/denoiser.h"
-#include "shaders/constants/antilag.h"
+#include "passes/methods/denoiser.h"
+#include "shaders/temporal/antilag.h"
 #include "tests/passes/antialiasing_run.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/denoiser_run.h"

@@ -2,8 +2,8 @@
 
 #include <variant>
 
-#include "passes/walr_method.h"
-#include "passes/walr_paper.h"
+#include "passes/methods/walr_method.h"
+#include "passes/methods/walr_paper.h"
 
 namespace walr::test {
 

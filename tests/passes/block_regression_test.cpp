@@ -1,4 +1,4 @@
-#include "passes/block_regression.h"
+#include "passes/regression/block_regression.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "passes/block_regression.h"
-#include "passes/light_direction.h"
+#include "passes/conventions/light_direction.h"
+#include "passes/regression/block_regression.h"
 #include "tests/passes/block_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/host_textures.h"

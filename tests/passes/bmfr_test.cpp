@@ -1,4 +1,4 @@
-#include "passes/bmfr.h"
+#include "passes/methods/bmfr.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "passes/weighted_regression.h"
+#include "passes/regression/weighted_regression.h"
 #include "tests/passes/reference/guides.h"
 #include "tests/passes/reference/moments.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "tests/passes/host_textures.h"
 #include "tests/vulkan/test_device.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "tests/passes/host_textures.h"
 #include "tests/vulkan/test_device.h"
 

@@ -1,4 +1,4 @@
-#include "passes/flr.h"
+#include "passes/methods/flr.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include "passes/frame.h"
-#include "passes/orthographic.h"
+#include "passes/conventions/frame.h"
+#include "passes/conventions/orthographic.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "passes/full_window_regression.h"
+#include "passes/regression/full_window_regression.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/hard_cases.h"

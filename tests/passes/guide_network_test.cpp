@@ -1,5 +1,5 @@
 // The network of FLNR: each layer and the whole against double precision, and against what PyTorch computes.
-#include "passes/guide_network.h"
+#include "passes/network/guide_network.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "passes/flr_regression.h"
-#include "passes/network_weights.h"
+#include "passes/network/network_weights.h"
+#include "passes/regression/flr_regression.h"
 #include "tests/error_text.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"

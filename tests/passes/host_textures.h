@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "passes/inputs.h"
-#include "passes/prepare_guides.h"
+#include "passes/conventions/inputs.h"
+#include "passes/guides/prepare_guides.h"
 #include "tests/passes/reference/guides.h"
 #include "tests/vulkan/graph_run.h"
 

@@ -1,7 +1,7 @@
 // The joint bilateral filter on a device: it agrees with the double-precision reference and with plain averages.
 #include <cmath>
 
-#include "passes/joint_bilateral_filter.h"
+#include "passes/filters/joint_bilateral_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/reference/joint_bilateral.h"

@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "passes/light_direction.h"
+#include "passes/conventions/light_direction.h"
 #include "tests/passes/reference/storage.h"
 #include "tests/passes/shaders.h"
 #include "tests/vulkan/gpu_fixture.h"

@@ -1,4 +1,4 @@
-#include "passes/light_pattern.h"
+#include "passes/conventions/light_pattern.h"
 
 #include <set>
 #include <utility>

@@ -1,5 +1,5 @@
 // The linter of inputs: it reports exactly the fault that the input has, and nothing for correct input.
-#include "passes/input_linter.h"
+#include "passes/lint/input_linter.h"
 
 #include <algorithm>
 #include <functional>
@@ -9,7 +9,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "passes/inspection.h"
+#include "passes/stage/inspection.h"
 #include "tests/passes/host_textures.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"

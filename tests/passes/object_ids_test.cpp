@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "tests/passes/antialiasing_run.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/host_textures.h"

@@ -10,7 +10,7 @@
 
 #include <glm/common.hpp>
 
-#include "passes/block_regression.h"
+#include "passes/regression/block_regression.h"
 #include "tests/passes/block_filter.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include "passes/walr_method.h"
+#include "passes/methods/walr_method.h"
 #include "tests/passes/frame_symmetry.h"
 #include "tests/passes/reference/full_window.h"
 #include "tests/passes/reference/history.h"

@@ -1,4 +1,4 @@
-#include "passes/settings.h"
+#include "passes/settings/settings.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "tests/error_text.h"
 
 namespace walr {

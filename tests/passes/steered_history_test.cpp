@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
-#include "passes/antilag.h"
-#include "shaders/constants/antilag.h"
+#include "passes/temporal/antilag.h"
+#include "shaders/temporal/antilag.h"
 #include "tests/passes/block_filter.h"
 #include "tests/passes/filter_run.h"
 #include "tests/passes/reference/moments.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "passes/svgf.h"
+#include "passes/methods/svgf.h"
 #include "tests/error_text.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/filter_run.h"

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "passes/orthographic.h"
+#include "passes/conventions/orthographic.h"
 #include "tests/passes/reference/hash.h"
 #include "tests/passes/reference/storage.h"
 

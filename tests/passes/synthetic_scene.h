@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "passes/frame.h"
+#include "passes/conventions/frame.h"
 #include "tests/passes/reference/frame.h"
 
 /// Small analytic scenes with their G-buffers, for tests of the passes.

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "framegraph/compile/compile.h"
-#include "shaders/constants/block_regression.h"
-#include "shaders/constants/frame.h"
+#include "shaders/conventions/frame.h"
+#include "shaders/regression/block_regression.h"
 #include "tests/passes/any_walr.h"
 
 namespace walr {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "passes/frame.h"
+#include "passes/conventions/frame.h"
 #include "samples/sequence/sequence.h"
 #include "tests/passes/reference/storage.h"
 #include "tests/passes/stage_checks.h"

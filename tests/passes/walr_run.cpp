@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "shaders/constants/antilag.h"
+#include "shaders/temporal/antilag.h"
 #include "tests/passes/texel_codec.h"
 
 namespace walr::test {

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "framegraph/vulkan/frame_queue.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/follow_session.h"
 #include "samples/host/live_frame.h"

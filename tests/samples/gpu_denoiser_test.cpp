@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/image/half.h"
 #include "tests/samples/synthetic_sequence.h"

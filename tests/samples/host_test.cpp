@@ -19,7 +19,7 @@
 
 #include "framegraph/compile/compile.h"
 #include "framegraph/vulkan/driver_memory_model.h"
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/frame_output.h"
 #include "samples/denoise/gpu_denoiser.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/input_linter.h"
+#include "passes/lint/input_linter.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/sequence/sequence.h"
 

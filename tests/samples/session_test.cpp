@@ -19,7 +19,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/host/camera_control.h"
 #include "samples/host/default_extent.h"
 #include "samples/host/resolution_control.h"

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/renderer.h"
 #include "samples/host/shader_reloader.h"
@@ -149,7 +149,7 @@ TEST_F(ShaderReloaderTest, AShaderThatCannotBeUsedIsReportedAndTheOldOneStays) {
 TEST_F(ShaderReloaderTest, AChangedIncludeReachesTheShadersThatIncludeIt) {
   Host host(gpu);
   host.frame();
-  host.sources().replace("include/luminance.glsl", "0.2126", "0.9");
+  host.sources().replace("common/luminance.glsl", "0.2126", "0.9");
   EXPECT_GT(host.poll(), 1U);
   host.frame();
 }

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "passes/denoiser.h"
+#include "passes/methods/denoiser.h"
 #include "samples/image/exr.h"
 #include "samples/sequence/sequence.h"
 #include "samples/sequence/writer.h"

@@ -1,7 +1,7 @@
 // What the path tracer on the GPU reads: the scene of samples/render/ in buffers, and the constants of a frame.
 #ifndef WALR_GPU_RENDER_SCENE_DATA_H
 #define WALR_GPU_RENDER_SCENE_DATA_H
-#include "shaders/constants/types.h"
+#include "shaders/common/types.h"
 #ifdef __cplusplus
 #define WALR_CONSTANT inline constexpr
 namespace walr::gpu_render {

@@ -4,7 +4,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #define GROUP_SUM uint
-#include "include/group_sum.glsl"
+#include "common/group_sum.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform texture2D lighting;

@@ -1,7 +1,7 @@
 // Converts linear light to display values as walr::writePng does: tone map x / (1 + x), then sRGB transfer function.
 #ifndef WALR_HOST_DISPLAY_GLSL
 #define WALR_HOST_DISPLAY_GLSL
-#include "include/finite.glsl"
+#include "common/finite.glsl"
 
 float encodeSrgb(float linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;

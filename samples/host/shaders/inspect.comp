@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "include/finite.glsl"
+#include "common/finite.glsl"
 #include "view_constants.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;

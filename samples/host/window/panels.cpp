@@ -12,7 +12,7 @@
 #include <imgui.h>
 
 #include "framegraph/plan/memory_places.h"
-#include "passes/settings.h"
+#include "passes/settings/settings.h"
 #include "samples/command_line/resampled_frames.h"
 #include "samples/host/follow_session.h"
 

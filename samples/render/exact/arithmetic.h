@@ -17,7 +17,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "shaders/constants/types.h"
+#include "shaders/common/types.h"
 
 #define WALR_EXACT inline
 #define WALR_EXACT_CONSTANT inline constexpr

@@ -7,7 +7,7 @@
 #include "framegraph/vulkan/executor.h"
 #include "integration/denoise_graph.h"
 #include "integration/registry.h"
-#include "passes/frame.h"
+#include "passes/conventions/frame.h"
 
 namespace {
 

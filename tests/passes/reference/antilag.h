@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/antilag.h"
+#include "passes/temporal/antilag.h"
 #include "tests/passes/reference/temporal_accumulation.h"
 
 namespace walr::reference {

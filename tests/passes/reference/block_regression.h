@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/block_regression.h"
+#include "passes/regression/block_regression.h"
 #include "tests/passes/reference/guides.h"
 
 namespace walr::reference {

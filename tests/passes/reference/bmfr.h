@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/bmfr_fit.h"
+#include "passes/regression/bmfr_fit.h"
 #include "tests/passes/reference/guides.h"
 
 namespace walr::reference {

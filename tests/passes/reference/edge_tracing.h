@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/weighted_regression.h"
+#include "passes/regression/weighted_regression.h"
 #include "tests/passes/reference/guides.h"
 
 namespace walr::reference {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/flr_regression.h"
+#include "passes/regression/flr_regression.h"
 #include "tests/passes/reference/guide_network.h"
 #include "tests/passes/reference/guides.h"
 

@@ -6,8 +6,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "passes/inputs.h"
-#include "shaders/constants/frame.h"
+#include "passes/conventions/inputs.h"
+#include "shaders/conventions/frame.h"
 #include "tests/passes/reference/image.h"
 
 namespace walr::reference {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/full_window_regression.h"
+#include "passes/regression/full_window_regression.h"
 #include "tests/passes/reference/atrous.h"
 
 namespace walr::reference {

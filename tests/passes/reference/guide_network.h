@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "passes/guide_network.h"
+#include "passes/network/guide_network.h"
 #include "tests/passes/reference/guides.h"
 
 namespace walr::reference {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "passes/prepare_guides.h"
+#include "passes/guides/prepare_guides.h"
 #include "tests/passes/reference/frame.h"
 #include "tests/passes/reference/storage.h"
 

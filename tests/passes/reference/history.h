@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/temporal_accumulation.h"
+#include "passes/temporal/temporal_accumulation.h"
 #include "tests/passes/reference/reprojection.h"
 
 namespace walr::reference {

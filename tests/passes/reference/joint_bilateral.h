@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/joint_bilateral_filter.h"
+#include "passes/filters/joint_bilateral_filter.h"
 #include "tests/passes/reference/guides.h"
 
 namespace walr::reference {

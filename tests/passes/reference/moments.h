@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "passes/weighted_regression.h"
+#include "passes/regression/weighted_regression.h"
 #include "tests/passes/reference/storage.h"
 
 namespace walr::reference {

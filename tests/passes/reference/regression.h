@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "passes/regularisation.h"
+#include "passes/regression/regularisation.h"
 #include "tests/passes/reference/moments.h"
 
 namespace walr::reference {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "passes/history_tests.h"
+#include "passes/guides/history_tests.h"
 #include "tests/passes/reference/guides.h"
 
 namespace walr::reference {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "passes/svgf_accumulation.h"
-#include "passes/svgf_filter.h"
+#include "passes/filters/svgf_filter.h"
+#include "passes/temporal/svgf_accumulation.h"
 #include "tests/passes/reference/guides.h"
 #include "tests/passes/reference/reprojection.h"
 

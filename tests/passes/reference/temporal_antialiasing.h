@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/temporal_antialiasing.h"
+#include "passes/temporal/temporal_antialiasing.h"
 #include "tests/passes/reference/temporal_accumulation.h"
 
 namespace walr::reference {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/walr_paper.h"
+#include "passes/methods/walr_paper.h"
 #include "tests/passes/reference/atrous.h"
 #include "tests/passes/reference/temporal_antialiasing.h"
 

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "include/pack_direction.glsl"
+#include "conventions/pack_direction.glsl"
 #include "walr/light_direction.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

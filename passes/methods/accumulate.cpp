@@ -1,0 +1,17 @@
+#include "passes/methods/accumulate.h"
+
+#include "passes/stage/pass_through.h"
+#include "passes/temporal/temporal_stages.h"
+
+namespace walr {
+
+fg::Texture addAccumulate(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                          const AccumulateSettings& settings) {
+  const TemporalPlan plan =
+      planTemporalStages(inputs, {.accumulation = settings.accumulation, .antialiasing = {.enabled = false}});
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, plan.guides);
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan);
+  return addPassThrough(graph, accumulated.lighting, output);
+}
+
+}  // namespace walr

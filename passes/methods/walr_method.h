@@ -1,0 +1,61 @@
+#pragma once
+
+#include "framegraph/declare/graph.h"
+#include "passes/conventions/inputs.h"
+#include "passes/guides/history_tests.h"
+#include "passes/guides/prepare_guides.h"
+#include "passes/regression/block_regression.h"
+#include "passes/stage/stage_graph.h"
+#include "passes/temporal/temporal_accumulation.h"
+#include "passes/temporal/temporal_antialiasing.h"
+
+namespace walr {
+
+/// Settings of all stages of `walr`.
+struct WalrSettings {
+  bool spatialOnly = false;
+  PrepareGuidesSettings guides;
+  TemporalAccumulationSettings accumulation{.maxHistory = 8.0F,
+                                            .thresholds = kStrictThresholds,
+                                            .antilag = {.enabled = true},
+                                            .storage = LightStorage::Packed};
+  AmbientOcclusionSettings occlusion;
+  BlockRegressionSettings blocks;
+  bool fitWindow = true;
+  TemporalAntialiasingSettings antialiasing{
+      .clipGamma = 5.0F, .thresholds = kStrictThresholds, .storage = LightStorage::Packed};
+
+  void visit(SettingVisitor& v) {
+    v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,
+             "Meunier & Harada 2022, 4.3"},
+            spatialOnly);
+    guides.visit(v);
+    accumulation.visit(v);
+    accumulation.visitStorage(v);
+    v.visit(
+        {"walr.fit-window",
+         "Make blocks no larger than 1/43 of the image's height, but at least of 4 pixels; leave out iterations whose "
+         "window would span far more than a tenth of the height; widen windows where a sample of light stands for "
+         "several pixels",
+         "", 0, 1, "measured"},
+        fitWindow);
+    occlusion.visit(v);
+    blocks.visit(v);
+    antialiasing.visit(v);
+    antialiasing.visitStorage(v);
+  }
+};
+
+/// Takes less time and memory traffic, and loses detail that no guide shows: the result takes in no accumulated light.
+WalrSettings fastWalr();
+
+/// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of
+/// pixels instead of pixels, which leaves room for depth and occlusion as features. See passes/WALR.md.
+/// @param output     RGBA16F texture to write the result to
+/// @returns the output's new version
+/// @throws std::invalid_argument for settings that contradict each other; their ranges are the caller's to check
+/// (`Configurable::checkSettings`)
+fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                    const WalrSettings& settings = {});
+
+}  // namespace walr

@@ -1,0 +1,65 @@
+#include "passes/regression/accumulated_share.h"
+
+#include "passes/conventions/light_storage.h"
+#include "passes/temporal/antilag.h"
+#include "shaders/regression/accumulated_share.h"
+#include "shaders/shaders.h"
+
+namespace walr {
+
+SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory) {
+  const fg::Extent tiles = antilagTiles(pixels);
+  return {graph.history("least antilag factor", {VK_FORMAT_R32_SFLOAT, tiles}),
+          graph.history("anti-aliasing shortening", {VK_FORMAT_R32_UINT, tiles}), maxHistory};
+}
+
+void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const AccumulatedShareInputs& inputs,
+                         const AccumulatedShareSettings& settings) {
+  const fg::Extent pixels = graph->textureDesc(inputs.accumulated).extent;
+  const bool packed = lightStorageOf(graph->textureDesc(inputs.accumulated).format) == LightStorage::Packed;
+  const fg::TextureDesc ofTiles{VK_FORMAT_R32G32B32A32_SFLOAT, inputs.tiles};
+  // Beside the statistics of a tile's other pixels stand those of its pixels beside an edge.
+  const fg::TextureDesc ofBoth{ofTiles.format, {2 * inputs.tiles.width, inputs.tiles.height}};
+  const fg::History statistics = graph->history("residual statistics", ofBoth);
+  const fg::History agreement = graph->history("residual agreement", ofTiles);
+  const fg::History innovation = graph->history("innovation", {VK_FORMAT_R16_SFLOAT, pixels});
+  const SteeredHistory history =
+      inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, 1.0F);  // Nobody reads it.
+
+  apply.specialize("kPackedMean", packed)
+      .sampleIf(packed, "accumulatedPacked", inputs.accumulated, inputs.guides.depth)
+      .sampleIf(!packed, "accumulatedHalf", inputs.accumulated, inputs.lighting)
+      .sample("lighting", inputs.lighting)
+      .specialize("kAntilag", inputs.antilag.valid())
+      .sampleIf(inputs.antilag.valid(), "antilag", inputs.antilag, inputs.lighting)
+      .sample("previousStatistics", statistics.previous)
+      .sample("previousAgreement", agreement.previous)
+      .sample("previousInnovation", innovation.previous);
+  static_cast<void>(apply.store("outInnovation", innovation.current));
+  const fg::Texture sums = apply.store("outResidualSums", graph->texture("residual sums", ofBoth));
+  const fg::Texture innovationSums = apply.store("outInnovationSums", graph->texture("innovation sums", ofTiles));
+
+  // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
+  const float bias = 0.5F * settings.innovationBias / history.maxHistory;
+  fg::PassBuilder pass = graph->compute("residual statistics", shaders::residualStatistics);
+  pass.uniform("frameConstants", inputs.frame)
+      .sample("depth", inputs.guides.depth)
+      .sample("sums", sums)
+      .sample("innovationSums", innovationSums)
+      .sample("previousStatistics", statistics.previous)
+      .sample("previousAgreement", agreement.previous)
+      .sample("previousLeastAntilag", history.leastAntilag.previous)
+      .specialize("kTileSize", inputs.tileSize)
+      .specialize("kRadius", settings.radius)
+      .constants(ResidualStatisticsConstants{static_cast<std::int32_t>(inputs.tileOffset),
+                                             1.0F - 1.0F / settings.frames, history.maxHistory, settings.innovationGain,
+                                             bias, settings.gain, settings.antialiasingShare})
+      // A tile of antilag is no smaller than one of the reconstruction, so that there are no more of them.
+      .dispatch(inputs.tiles);
+  static_cast<void>(pass.store("outStatistics", statistics.current));
+  static_cast<void>(pass.store("outAgreement", agreement.current));
+  static_cast<void>(pass.store("outLeastAntilag", history.leastAntilag.current));
+  static_cast<void>(pass.store("outShortening", history.shortening.current));
+}
+
+}  // namespace walr

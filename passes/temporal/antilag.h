@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+
+#include "framegraph/declare/graph.h"
+#include "passes/settings/settings.h"
+#include "passes/stage/stage_graph.h"
+
+namespace walr {
+
+/// Settings of antilag: it shortens the history of temporal accumulation where the light changes although no surface
+/// moves: a lamp goes out, a door opens, a light or an object that casts a shadow moves.
+struct AntilagSettings {
+  bool enabled = false;
+  std::uint32_t radius = 3;
+  float scoreLow = 2.0F;
+  float scoreHigh = 4.3F;
+
+  void visitEnabled(SettingVisitor& v) {
+    v.visit({"accumulation.antilag", "Shorten history where the light has changed by more than noise explains", "", 0,
+             1, "measured"},
+            enabled);
+  }
+  void visit(SettingVisitor& v) {
+    visitEnabled(v);
+    v.visit({"accumulation.antilag-radius",
+             "Radius of the window of tiles, 8 x 8 pixels each, over which the change is measured", "tiles", 0, 8,
+             "measured"},
+            radius);
+    v.visit({"accumulation.antilag-low", "Change of the light up to which history counts in full; below antilag-high",
+             "standard errors", 0.0, 100.0, "measured"},
+            scoreLow);
+    v.visit({"accumulation.antilag-high", "Change of the light from which history does not count", "standard errors",
+             0.0, 100.0, "measured"},
+            scoreHigh);
+  }
+};
+
+/// Textures that temporal accumulation and antilag exchange: a texel for each tile of 8 x 8 pixels.
+struct Antilag {
+  fg::History factor;  ///< R32_SFLOAT: 0 where history counts in full, 1 where it does not count.
+  /// R32G32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
+  /// history.
+  fg::Texture tiles;
+  /// R32_SFLOAT, a texel for each tile, or invalid: the least factor that the last frame's measurements of the noise
+  /// allow (`SteeredHistory`).
+  fg::Texture least;
+};
+
+/// Declare the textures.
+/// @param pixels the image's extent
+/// @param least  `Antilag::least`
+Antilag declareAntilag(StageGraph graph, fg::Extent pixels, fg::Texture least = {});
+
+/// Tiles of an image.
+fg::Extent antilagTiles(fg::Extent pixels);
+
+/// Add the pass that computes the antilag factor of this frame. Accumulation reads it in the next frame.
+/// @param antilag as the accumulation of this frame wrote it
+/// @returns `Antilag::factor` of this frame
+/// @throws std::invalid_argument if antilag-low is not below antilag-high
+fg::Texture addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings);
+
+}  // namespace walr

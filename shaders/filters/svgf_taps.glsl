@@ -1,0 +1,80 @@
+// What an a-trous iteration of SVGF reads of the pixels around.
+// Needs: `depth`, `shadingNormal` (utexture2D), `colour` (texture2D), kRadius, kSpacing;
+// GL_EXT_control_flow_attributes.
+// WINDOW: reads every tap from the textures. Else a work group reads each pixel once and keeps it in shared memory.
+#ifndef WALR_SVGF_TAPS_GLSL
+#define WALR_SVGF_TAPS_GLSL
+#include "conventions/surface.glsl"
+
+struct Tap {
+  float z;  // 0 where the tap does not count: outside the image, without a surface or without a sample.
+  vec3 normal;
+  vec4 colour;  // 0 where the tap does not count.
+};
+
+// All fetches come before the first test, so that they overlap.
+Tap readTap(ivec2 q) {
+  const ivec2 inside = clamp(q, ivec2(0), textureSize(depth, 0) - 1);
+  const float z = unpackDepth(texelFetch(depth, inside, 0).x);
+  const uint normal = texelFetch(shadingNormal, inside, 0).x;
+  const vec4 light = texelFetch(colour, inside, 0);
+  const bool counts = q == inside && z > 0.0 && light.a >= 0.0;
+  return Tap(counts ? z : 0.0, unpackLongNormal(normal), counts ? light : vec4(0.0));
+}
+
+#ifdef WINDOW
+ivec2 pixelOfThread() { return ivec2(gl_GlobalInvocationID.xy); }
+void prepareTaps() {}
+Tap tapAt(ivec2 p, ivec2 tap) { return readTap(p + kSpacing * tap); }
+#else
+// A work group filters 8 x 8 quads of 2 x 2 pixels. Where taps are more than two pixels apart, so are the quads: the
+// pixels of the group and of all its taps then form one square tile of quads, which is small enough for shared memory.
+// Other groups filter the quads between.
+const int kGroupSide = 16;
+const int kQuadSpacing = kSpacing < 2 ? 2 : kSpacing;
+const int kTapSpacing = kSpacing < 2 ? 1 : 2;  // In the tile.
+const int kBorder = kRadius * kTapSpacing;
+const int kTileSide = kGroupSide + 2 * kBorder;
+const int kTilePixels = kTileSide * kTileSide;
+const uint kThreads = uint(kGroupSide * kGroupSide);
+const uint kReads = (uint(kTilePixels) + kThreads - 1u) / kThreads;  // Of a thread.
+
+shared vec4 tileSurface[kTilePixels];  // Shading normal, depth.
+shared uvec2 tileColour[kTilePixels];  // As four halves.
+
+// Pixel at a place in the tile. Place 0 is the first pixel that the group filters.
+ivec2 pixelAt(ivec2 place) {
+  const uvec2 group = gl_WorkGroupID.xy;
+  const uint interleaved = uint(kQuadSpacing) / 2u;  // Groups per axis that filter the same area.
+  const uvec2 first = group / interleaved * (uint(kGroupSide) * interleaved) + group % interleaved * 2u;
+  return ivec2(first) + (place >> 1) * kQuadSpacing + (place & 1);
+}
+
+ivec2 pixelOfThread() { return pixelAt(ivec2(gl_LocalInvocationID.xy)); }
+
+void prepareTaps() {
+  Tap taps[kReads];
+  [[unroll]] for (uint i = 0u; i < kReads; ++i) {
+    const uint index = min(gl_LocalInvocationIndex + i * kThreads, uint(kTilePixels) - 1u);
+    taps[i] = readTap(pixelAt(ivec2(index % uint(kTileSide), index / uint(kTileSide)) - kBorder));
+  }
+  [[unroll]] for (uint i = 0u; i < kReads; ++i) {
+    const uint index = gl_LocalInvocationIndex + i * kThreads;
+    if (index >= uint(kTilePixels)) break;
+    tileSurface[index] = vec4(taps[i].normal, taps[i].z);
+    tileColour[index] = uvec2(packHalf2x16(taps[i].colour.rg), packHalf2x16(taps[i].colour.ba));
+  }
+  barrier();
+}
+
+Tap tapAt(ivec2 p, ivec2 tap) {
+  const uint first = gl_LocalInvocationID.y * uint(kTileSide) + gl_LocalInvocationID.x;
+  const uvec2 place = uint(kTapSpacing) * uvec2(tap + kRadius);
+  const uint index = first + (place.y * uint(kTileSide) + place.x);
+  const vec4 surface = tileSurface[index];
+  const uvec2 light = tileColour[index];
+  return Tap(surface.w, surface.xyz, vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y)));
+}
+#endif
+
+#endif

@@ -1,0 +1,293 @@
+// How much of the residual is added to the prediction (passes/WALR.md, 9). The residual is the accumulated light
+// less the prediction p: noise, and where the fits are wrong also light that no feature explains. To tell them apart,
+// this frame's light y and the history h are compared. Their noise is independent: where y - p and h - p are noise
+// alone, their product is 0 in the mean.
+// The residual is split into two levels: its mean over the pixels around on the same surface, and the difference of the
+// pixel's own residual from that mean. Each level has its own share. So have pixels beside an edge, where the fits miss
+// most.
+// In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
+// pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
+// Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
+// stored_fit.glsl.
+#ifndef WALR_ACCUMULATED_SHARE_GLSL
+#define WALR_ACCUMULATED_SHARE_GLSL
+#include "temporal/antilag.glsl"
+#include "regression/best_share.glsl"
+#include "conventions/camera.glsl"
+#include "common/finite.glsl"
+#include "regression/innovation.glsl"
+#include "common/luminance.glsl"
+#include "conventions/packed_light.glsl"
+#include "regression/reconstruction_tile.glsl"
+
+layout(constant_id = 3) const bool kPackedMean = true;  // The accumulated light is packed.
+layout(constant_id = 4) const bool kAntilag = false;    // It is shortened by the antilag factor of its own frame.
+uniform utexture2D accumulatedPacked;
+uniform texture2D accumulatedHalf;
+uniform texture2D lighting;
+uniform sampler2D antilag;
+uniform texture2D previousStatistics;  // residual_statistics.comp.
+uniform sampler2D previousAgreement;   // Blue: trust.
+layout(rgba32f) uniform writeonly image2D outResidualSums;  // Right half: of pixels beside an edge.
+
+vec4 accumulatedAt(ivec2 p) {
+  return kPackedMean ? unpackAccumulated(texelFetch(accumulatedPacked, p, 0).x) : texelFetch(accumulatedHalf, p, 0);
+}
+
+// Sums over pixels. xy: of the mean around a pixel; zw: of the difference of the pixel's own residual from it. x and z:
+// (y - p) (h - p), in the mean the square of what the fits miss; y and w: square of the noise of one sample.
+struct Statistics {
+  vec4 sums;
+  float trust;
+};
+
+// `before`: the position in the previous camera's view space. Statistics of an image of another size are not read.
+Statistics previousStatisticsAt(vec3 before, bool edge) {
+  if (before.z >= 0.0 || frame.previousPixelFromPixel != vec2(1.0)) return Statistics(vec4(0.0), 0.0);
+  const vec2 pixel = nearPixelOf(frame.previousRayFromPixel, before);
+  const vec2 tile = (pixel + float(kTileStart)) / float(kTilePixels) - 0.5;
+  const ivec2 last = textureSize(previousAgreement, 0) - 1;
+  const ivec2 ofClass = ivec2(edge ? last.x + 1 : 0, 0);
+  const vec2 base = clamp(floor(tile), vec2(-1.0), vec2(last)), f = tile - floor(tile);
+  const vec4 trust = textureGather(previousAgreement, (base + 1.0) / vec2(last + 1), 2).wzxy;
+  Statistics found = Statistics(vec4(0.0), 0.0);
+  [[unroll]] for (int i = 0; i < 4; ++i) {
+    const ivec2 corner = ivec2(i & 1, i >> 1);
+    const ivec2 q = clamp(ivec2(base) + corner, ivec2(0), last) + ofClass;
+    const vec2 weights = mix(1.0 - f, f, vec2(corner));
+    const float weight = weights.x * weights.y;
+    found.sums += weight * texelFetch(previousStatistics, q, 0);
+    found.trust += weight * trust[i];
+  }
+  return found;
+}
+
+// The share of a residual that is a mean of `samples` samples. The statistics have errors of their own, so that a small
+// share is none.
+float accumulatedShare(vec2 statistics, float samples, float trust, float gain) {
+  const float share = bestShare(statistics, samples, trust, gain);
+  return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
+}
+
+// The residuals of a pixel, or their means over pixels.
+struct Residual {
+  vec3 mean;      // m - p, where m = h + (y - h) / N.
+  float noisy;    // Luminance of y - p.
+  float history;  // Luminance of h - p.
+  float samples;  // N; its negative where there is no finite y or no h. The luminances are 0 then.
+};
+
+// `mean`: rgb: m; alpha: N. `light`: y if `hasLight`.
+Residual residualOf(vec4 mean, vec3 light, bool hasLight, vec3 predicted) {
+  const float fewest = 1.5;  // Below, rounding of N leaves nothing of h.
+  const vec3 residual = mean.rgb - predicted;
+  if (mean.a < fewest || !hasLight) return Residual(residual, 0.0, 0.0, -mean.a);
+  const float y = luminance(light - predicted);
+  const float h = (mean.a * luminance(residual) - y) / (mean.a - 1.0);
+  return Residual(residual, y, h, mean.a);
+}
+
+// What a pixel shows; 0 without a surface.
+struct Shown {
+  bool surface;
+  vec3 position;
+  vec3 normal;
+  vec3 predicted;  // p: the light that the fits predict.
+};
+
+const int kGroupThreads = kGroupSize * kGroupSize;
+// First the residuals, three values of each thread; later what is summed, four of each.
+shared vec4 groupValues[4 * kGroupThreads];
+const int kGroupResiduals = 0;                  // rgb: mean; a: noisy.
+const int kGroupNormals = kGroupThreads;        // rgb: 0 without a surface; a: samples, or kNoPixel.
+const int kGroupPositions = 2 * kGroupThreads;  // rgb: position; a: history.
+const float kNoPixel = 1e30;                    // More samples than any pixel has.
+
+void shareResidual(bool hasPixel, Shown shown, Residual residual) {
+  const int thread = int(gl_LocalInvocationIndex);
+  groupValues[kGroupResiduals + thread] = vec4(residual.mean, residual.noisy);
+  groupValues[kGroupNormals + thread] = vec4(shown.normal, hasPixel ? residual.samples : kNoPixel);
+  groupValues[kGroupPositions + thread] = vec4(shown.position, residual.history);
+  barrier();
+}
+
+// The sums over the workgroup of four values of each thread, for the thread 0. All threads must call it. A quarter of the
+// threads works on each value, and each of three rounds leaves a quarter of the sums. They lie in the memory of the
+// residuals.
+mat4 sumsOverGroup(mat4 values) {
+  const int thread = int(gl_LocalInvocationIndex);
+  barrier();  // The residuals have been read.
+  [[unroll]] for (int i = 0; i < 4; ++i) groupValues[i * kGroupThreads + thread] = values[i];
+  [[unroll]] for (int round = 0; round < 3; ++round) {
+    const int n = kGroupThreads >> (2 * round + 2);
+    barrier();
+    const int i = thread / n * kGroupThreads + thread % n;
+    if (thread < 4 * n) {
+      groupValues[i] = (groupValues[i] + groupValues[i + 2 * n]) + (groupValues[i + n] + groupValues[i + 3 * n]);
+    }
+  }
+  barrier();
+  return mat4(groupValues[0], groupValues[kGroupThreads], groupValues[2 * kGroupThreads],
+              groupValues[3 * kGroupThreads]);
+}
+
+// Tells how far other pixels show the surface of a pixel: the edge-stopping function of the plane through the pixel, and
+// agreement of the shading normals, which ends at an angle of 37 degrees. 0 if there is none.
+struct SameSurface {
+  vec4 plane;   // Distance from the plane, scaled for the edge-stopping function: dot(xyz, position) + w.
+  vec3 facing;  // 5 times the normal.
+};
+
+SameSurface sameSurfaceAs(Shown shown) {
+  const vec3 scaled = shown.normal * (constants.planeScale / -shown.position.z);
+  return SameSurface(vec4(scaled, -dot(scaled, shown.position)), 5.0 * shown.normal);
+}
+
+float sameSurface(SameSurface s, int thread) {
+  const float distance = abs(dot(s.plane.xyz, groupValues[kGroupPositions + thread].xyz) + s.plane.w);
+  return clamp(constants.planeOffset - distance, 0.0, 1.0) *
+         clamp(dot(s.facing, groupValues[kGroupNormals + thread].xyz) - 4.0, 0.0, 1.0);
+}
+
+// Mean residual over the 3 x 3 pixels, as far as this workgroup has them. `halves`: leave out pixels without y or h, as
+// statistics need; where a surface has just appeared, most pixels have no h. `edge`: whether one of the pixels shows
+// another surface or none.
+Residual meanAround(SameSurface surface, bool halves, out bool edge) {
+  const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
+  const float ofMissing = halves ? 0.0 : -1.0;
+  Residual sum = Residual(vec3(0.0), 0.0, 0.0, 0.0);
+  float weights = 0.0, least = 1.0;
+  [[unroll]] for (int i = 0; i < 9; ++i) {
+    const ivec2 t = thread + ivec2(i % 3, i / 3) - 1, inside = clamp(t, ivec2(0), ivec2(kGroupSize - 1));
+    const int q = inside.y * kGroupSize + inside.x;
+    const float same = sameSurface(surface, q);
+    const float stored = groupValues[kGroupNormals + q].a, samples = max(stored, ofMissing * stored);
+    least = min(least, stored < kNoPixel ? same : 1.0);  // At the group's border twice of one pixel.
+    const float weight = t == inside ? same * samples : 0.0;
+    sum.mean += weight * groupValues[kGroupResiduals + q].rgb;
+    sum.noisy += weight * groupValues[kGroupResiduals + q].a;
+    sum.history += weight * groupValues[kGroupPositions + q].a;
+    sum.samples += weight * samples;
+    weights += weight;
+  }
+  edge = least < 0.5;
+  const float scale = weights > 0.0 ? 1.0 / weights : 0.0;
+  return Residual(scale * sum.mean, scale * sum.noisy, scale * sum.history, scale * sum.samples);
+}
+
+// Product of this frame's residual at a pixel and the history's at the pixel two further along axis `axis`, or two
+// before it at the end of the group, and 1; 0 if that shows another surface. It is free of the noise that y and h of
+// one pixel share.
+vec2 farProduct(SameSurface surface, Residual own, int axis) {
+  ivec2 t = ivec2(gl_LocalInvocationID.xy);
+  t[axis] += t[axis] + 2 < kTilePixels ? 2 : -2;
+  const int q = t.y * kGroupSize + t.x;
+  if (sameSurface(surface, q) < 0.5) return vec2(0.0);
+  const float noisy = groupValues[kGroupResiduals + q].a, history = groupValues[kGroupPositions + q].a;
+  return vec2(0.5 * (own.noisy * history + own.history * noisy), 1.0);
+}
+
+// What a residual adds to the sums of its level (previousStatisticsAt).
+vec2 statisticsOf(float noisy, float history, float mean, float samples) {
+  const float missed = noisy * history;
+  return vec2(missed, samples * (mean * mean - missed));
+}
+
+const float kLeastLight = 1e-12;  // Far below what halves can hold: squares of its inverse are finite,
+const float kMostSquare = 1e30;   // and so are sums over tiles of these.
+
+// What a pixel adds to the statistics of its workgroup.
+struct Measured {
+  vec2 light;       // Predicted luminance and 1; 0 for a pixel that adds nothing.
+  vec4 statistics;  // statisticsOf the mean around the pixel, and of the difference from it.
+  bool edge;        // The pixel lies beside one.
+  vec2 innovation;  // innovationTerms.
+  vec4 far;         // farProduct along both axes.
+};
+
+// Writes what this workgroup adds to the statistics, relative to its mean light. The variance of traced light is about
+// proportional to the light, so that no workgroup outweighs its neighbours.
+void storeSums(Measured pixel) {
+  const vec4 none = vec4(0.0), interiorOnly = pixel.edge ? none : pixel.statistics;
+  const vec4 edgeOnly = pixel.edge ? pixel.statistics : none;
+  const mat4 sums = sumsOverGroup(mat4(vec4(pixel.light, pixel.innovation), interiorOnly, edgeOnly, pixel.far));
+  if (gl_LocalInvocationIndex != 0u) return;
+  const vec4 first = sums[0], interior = sums[1], edges = sums[2], distant = sums[3];
+  const float scale = first.x > kLeastLight ? first.y / first.x : 0.0;
+  const vec4 most = vec4(kMostSquare);
+  const ivec2 tile = ivec2(gl_WorkGroupID.xy);
+  imageStore(outResidualSums, tile, clamp(scale * interior, -most, most));
+  const ivec2 rightHalf = ivec2(imageSize(outResidualSums).x / 2, 0);
+  imageStore(outResidualSums, tile + rightHalf, clamp(scale * edges, -most, most));
+  // Products two pixels apart stand for those that are missing beside edges, up to a limit.
+  const vec2 perProduct = min(first.y / max(distant.yw, vec2(1.0)), vec2(4.0));
+  const vec4 others = vec4(first.zw, perProduct * distant.xz);
+  imageStore(outInnovationSums, tile, clamp(scale * others, -most, most));
+}
+
+// The light of a pixel. It is fetched before the prediction, so that both wait for memory at the same time.
+struct FetchedLight {
+  vec4 mean;
+  vec3 noisy;
+  float antilag;
+};
+
+FetchedLight fetchLight(ivec2 p) {
+  const float factor = kAntilag ? antilagAt(antilag, vec2(p)) : 0.0;
+  return FetchedLight(accumulatedAt(p), texelFetch(lighting, p, 0).rgb, factor);
+}
+
+// The accumulated light of a pixel after the antilag of this frame, and its residual.
+struct Accumulated {
+  vec4 mean;  // a: history length, 0 without a surface.
+  Residual residual;
+};
+
+Accumulated accumulatedWithAntilag(FetchedLight fetched, Shown shown) {
+  Accumulated found = Accumulated(shown.surface ? fetched.mean : vec4(0.0), Residual(vec3(0.0), 0.0, 0.0, 0.0));
+  if (!(found.mean.a > 0.0)) return found;
+  const bool hasLight = isFinite(fetched.noisy);
+  const vec3 light = hasLight ? clampedRadiance(fetched.noisy) : vec3(0.0);
+  if (kAntilag) {
+    const float longest = longestHistory(fetched.antilag, constants.maxHistory);
+    found.mean = withLongestHistory(found.mean, light, hasLight ? 1.0 : 0.0, longestHistoryOf(hasLight, longest));
+  }
+  found.residual = residualOf(found.mean, light, hasLight, shown.predicted);
+  return found;
+}
+
+// The prediction of a pixel mixed with its accumulated light. All threads of the workgroup must call it.
+vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown) {
+  const Accumulated accumulated = accumulatedWithAntilag(fetched, shown);
+  const Residual own = accumulated.residual;
+  shareResidual(hasPixel, shown, own);
+
+  vec3 result = shown.predicted;
+  Measured measured = Measured(vec2(0.0), vec4(0.0), false, vec2(0.0), vec4(0.0));
+  float innovation = 0.0;
+  if (accumulated.mean.a > 0.0) {
+    const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
+    const SameSurface surface = sameSurfaceAs(shown);
+    const Residual around = meanAround(surface, own.samples > 0.0, measured.edge);
+    const Statistics known = previousStatisticsAt(before, measured.edge);
+    const vec3 detail = own.mean - around.mean;
+    const float length = accumulated.mean.a;
+    const float aroundGain = measured.edge ? constants.residualEdgeGain : constants.residualGain;
+    result += accumulatedShare(known.sums.xy, around.samples, known.trust, aroundGain) * around.mean;
+    result += accumulatedShare(known.sums.zw, length, known.trust, constants.residualGain) * detail;
+    if (own.samples > 0.0) {
+      innovation = own.noisy - own.history;
+      measured.light = vec2(luminance(shown.predicted), 1.0);
+      measured.statistics =
+          vec4(statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples),
+               statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), length));
+      measured.innovation = innovationTerms(innovation, before);
+      measured.far = vec4(farProduct(surface, own, 0), farProduct(surface, own, 1));
+    }
+  }
+  if (hasPixel) storeInnovation(p, innovation);
+  storeSums(measured);
+  return clamp(result, vec3(0.0), vec3(kLightUnit));  // As predictions are: packed light holds no more.
+}
+
+#endif

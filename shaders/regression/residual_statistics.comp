@@ -1,0 +1,139 @@
+// WALR, share of the accumulated light (passes/WALR.md, 9): sums of the residuals in a window of tiles, where a frame
+// fades as it ages. The innovations in this window tell how long history may be in the next frame, and the share how long
+// that of anti-aliasing may be.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "regression/accumulated_share.h"
+#include "temporal/antilag.h"
+#include "conventions/frame.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kTileSize = 8;  // Pixels per axis, 5 to 8.
+layout(constant_id = 1) const int kRadius = 5;    // Of the window of tiles.
+
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform utexture2D depth;
+uniform texture2D sums;  // Of each tile: include/accumulated_share.glsl. Right half: of pixels beside an edge.
+uniform texture2D innovationSums;  // xy: include/innovation.glsl; zw: products of residuals two pixels apart, by axis.
+uniform texture2D previousStatistics;
+uniform texture2D previousAgreement;
+uniform texture2D previousLeastAntilag;
+layout(rgba32f) uniform writeonly image2D outStatistics;  // As the sums.
+layout(rgba32f) uniform writeonly image2D outAgreement;  // xy: sums of the products two pixels apart; z: trust.
+layout(r32f) uniform writeonly image2D outLeastAntilag;
+layout(r32ui) uniform writeonly uimage2D outShortening;  // Of the history of anti-aliasing: 0 not at all, 1 to none.
+layout(push_constant) uniform PushConstants { ResidualStatisticsConstants constants; };
+#include "regression/best_share.glsl"
+#include "conventions/camera.glsl"
+#include "conventions/surface.glsl"
+
+ivec2 tilesOfImage() { return textureSize(innovationSums, 0); }
+
+// Whether the previous frame had the same tiles. Where the image has changed its size, statistics begin anew.
+bool hasPrevious() { return frame.previousPixelFromPixel == vec2(1.0); }
+
+// The tile that showed the middle of this one in the previous frame, if nothing but the camera moved.
+ivec2 previousTile(ivec2 tile) {
+  if (!hasPrevious()) return ivec2(-1);
+  const ivec2 first = kTileSize * tile - constants.tileOffset;
+  const ivec2 p = clamp(first + kTileSize / 2, ivec2(0), textureSize(depth, 0) - 1);
+  const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
+  if (z == 0.0) return tile;
+  const vec3 before =
+      previousPosition(frame.previousViewFromView, z * rayThrough(frame.rayFromPixel, pixelCentre(p)));
+  if (before.z >= 0.0) return ivec2(-1);
+  const vec2 pixel = nearPixelOf(frame.previousRayFromPixel, before);
+  return ivec2(floor((pixel + float(constants.tileOffset)) / float(kTileSize)));
+}
+
+const int kAntilagSpan = 7 * kAntilagTile / kTileSize + 2;  // Tiles that a row of eight tiles of antilag spans.
+const int kAntilagSide = kAntilagSpan + 2 * kRadius;
+const int kSharedLeast = kAntilagSide * kAntilagSide;
+// Falls from the middle to the window's border, so that statistics are local where light differs.
+float windowWeight(int offset) { return 1.0 - float(abs(offset)) / float(kRadius + 1); }
+#include "common/window_sum.glsl"
+
+// How far the agreement of this frame's residuals with the history's is light that the fits miss, and not noise that
+// both share, as resampled light has. Such noise differs from pixel to pixel: means around a pixel have little of it,
+// and products of residuals two pixels apart almost none. What the fits miss goes on for some pixels, along one axis at
+// least. `both`: sums of previousStatisticsAt; `far`: sums of the products two pixels apart, by axis.
+// The limits are measured (passes/SHARE_EXPERIMENTS.md).
+float trustIn(vec4 both, vec2 far) {
+  const float kFarWeight = 1.25, kNone = 0.75, kFull = 0.95;
+  const float continuing = max(both.x, 0.0) + kFarWeight * max(abs(far.x), abs(far.y));
+  return clamp((continuing / max(both.x + both.z, 1e-30) - kNone) / (kFull - kNone), 0.0, 1.0);
+}
+
+// All threads must call it.
+void storeStatistics(ivec2 tile) {
+  const ivec2 size = tilesOfImage(), rightHalf = ivec2(size.x, 0);
+  vec4 interior = windowSum(sums, ivec2(0)), edge = windowSum(sums, rightHalf);
+  vec2 far = windowSum(innovationSums, ivec2(0)).zw;
+  if (any(greaterThanEqual(tile, size))) return;
+  const ivec2 before = previousTile(tile);
+  if (all(greaterThanEqual(before, ivec2(0))) && all(lessThan(before, size))) {
+    interior += constants.kept * texelFetch(previousStatistics, before, 0);
+    edge += constants.kept * texelFetch(previousStatistics, before + rightHalf, 0);
+    far += constants.kept * texelFetch(previousAgreement, before, 0).xy;
+  }
+  imageStore(outStatistics, tile, interior);
+  imageStore(outStatistics, tile + rightHalf, edge);
+  imageStore(outAgreement, tile, vec4(far, trustIn(interior + edge, far), 0.0));
+}
+
+// The tile that holds the middle of a tile of antilag.
+ivec2 tileOfSumsAt(ivec2 tile) {
+  const int middle = kAntilagTile / 2 + constants.tileOffset;
+  return min((kAntilagTile * tile + middle) / kTileSize, tilesOfImage() - 1);
+}
+
+// Slope of the regression of innovations on those of the frame before, in the window around a tile. Without noise it is
+// how much more the last frame should have counted. If only noise parts light and history, it is minus half of the share
+// with which it counted. All threads must call it.
+float innovationSlope(ivec2 tileOfSums) {
+  const ivec2 first = tileOfSumsAt(ivec2(gl_WorkGroupID.xy) * kGroup);
+  shareTiles(innovationSums, ivec2(0), first - kRadius, kAntilagSide);
+  const ivec2 inShared = tileOfSums - first;
+  vec2 sum = vec2(0.0);
+  for (int y = 0; y <= 2 * kRadius; ++y) {
+    for (int x = 0; x <= 2 * kRadius; ++x) sum += sharedTiles[(inShared.y + y) * kAntilagSide + inShared.x + x].xy;
+  }
+  return sum.y > 0.0 ? sum.x / sum.y : 0.0;
+}
+
+// How far anti-aliasing shortens its history. Its mean removes noise, and reprojection blurs it. Where the accumulated
+// light of a tile has a large share in the result, there is little noise and much that blur would take away.
+float shorteningOf(ivec2 tileOfSums, float trust) {
+  if (!hasPrevious()) return 0.0;
+  const float range = 0.5;  // Of shares, between no shortening and no history.
+  const ivec2 ofEdges = tileOfSums + ivec2(tilesOfImage().x, 0);
+  const vec4 sums = texelFetch(previousStatistics, tileOfSums, 0) + texelFetch(previousStatistics, ofEdges, 0);
+  const float share = bestShare(sums.xy + sums.zw, constants.maxHistory, trust, constants.residualGain);
+  return clamp((share - constants.antialiasingShare) / range, 0.0, 1.0);
+}
+
+// Changes the history length N of accumulation, for a tile of antilag, and stores the antilag factor with which history
+// has this length. Stores how far anti-aliasing shortens its own, too. All threads must call it.
+void storeHistoryLengths(ivec2 tile) {
+  const ivec2 tileOfSums = tileOfSumsAt(tile);
+  const float slope = innovationSlope(tileOfSums);
+  if (any(greaterThanEqual(tile, imageSize(outLeastAntilag)))) return;
+  const float longest = constants.maxHistory, shortest = 2.0;  // Innovations need a history.
+  const float previous = hasPrevious() ? texelFetch(previousLeastAntilag, tile, 0).x : 0.0;
+  const float before = longest * (1.0 - previous) + 1.0;
+  // Noise that successive frames share lets innovations agree, too: history is shortened as far as there is trust.
+  const float excess = slope + constants.innovationBias;
+  const float trust = hasPrevious() ? texelFetch(previousAgreement, tileOfSums, 0).z : 0.0;
+  const float change = constants.innovationGain * (excess > 0.0 ? trust * excess : excess);
+  const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
+  const float factor = 1.0 - (frames - 1.0) / longest;
+  imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));
+  imageStore(outShortening, tile, uvec4(floatBitsToUint(shorteningOf(tileOfSums, trust))));
+}
+
+void main() {
+  const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  storeStatistics(tile);
+  storeHistoryLengths(tile);
+}

@@ -1,2 +1,0 @@
-// Breaks a rule on purpose: passes know nothing of how they are embedded.
-#include "integration/registry.h"

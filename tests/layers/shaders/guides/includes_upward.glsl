@@ -1,0 +1,1 @@
+#include "temporal/reprojection.glsl"
