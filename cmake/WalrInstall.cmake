@@ -49,9 +49,7 @@ install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 function(walr_install_guides folder component)
   set(options COMPONENT ${component} ${ARGN})
   install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${folder}/integration" ${options})
-  install(FILES passes/WALR.md passes/WALR_EXPERIMENTS.md passes/SPARSE_LIGHT_EXPERIMENTS.md
-    passes/SHARE_EXPERIMENTS.md passes/HISTORY_EXPERIMENTS.md passes/ANTIALIASING_EXPERIMENTS.md
-    passes/GPU_EXPERIMENTS.md passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
+  install(FILES passes/WALR.md passes/LEARNT.md passes/GLOSSARY.md passes/BIBLIOGRAPHY.md
     DESTINATION "${folder}/passes" ${options})
   install(FILES passes/images/walr.svg DESTINATION "${folder}/passes/images" ${options})
   install(FILES samples/embedding/embedding.c samples/embedding/sequence.cpp DESTINATION "${folder}/samples/embedding" ${options})

@@ -22,7 +22,8 @@ struct HistoryThresholds {
   friend bool operator==(const HistoryThresholds&, const HistoryThresholds&) = default;
 };
 
-/// Of methods that lose more by light of another surface in their history than by noise (HISTORY_EXPERIMENTS.md).
+/// Of methods that lose more by light of another surface in their history than by noise (passes/LEARNT.md, "History of
+/// accumulation").
 inline constexpr HistoryThresholds kStrictThresholds{.planeTolerance = 0.005F, .normalThreshold = 0.9F};
 
 /// Visit the setting that chooses how a stage tests its history pixels.

@@ -57,8 +57,8 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   needs.geometricNormal = true;
   needs.occlusion = settings.occlusion;
   const auto [guides, accumulated] = addGuidesWithAccumulation(graph, inputs, settings.guides, needs, plan);
-  // The coarse window's power is measured (passes/SPARSE_LIGHT_EXPERIMENTS.md). Without a light grid every pixel has a
-  // mean.
+  // The coarse window's power is measured (passes/LEARNT.md, "Rays, sparse light and other normals"). Without a light
+  // grid every pixel has a mean.
   if (settings.fitWindow && accumulated.lightGrid) {
     blocks.coarseSigma *= wideningOf(inputs.conventions.light, 1.0F / 3.0F);
   }

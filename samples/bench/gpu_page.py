@@ -147,7 +147,7 @@ Frames: {kept['content']}. Median, and in brackets the 5 % and 95 % quantile.
 * **Plan's GB/s**: bytes of the plan, each texel once a pass, over the measured time.
 * **Estimate**: that of the static model (see `tests/costs/README.md`), at peak rates; {kept['model']}.
 {refusals(kept)}
-What was tried to make `walr` faster here, and what it gained: [GPU experiments](../../passes/GPU_EXPERIMENTS.md).
+What was tried to make `walr` faster here, and what it gained: [what we learnt](../../passes/LEARNT.md#speed-and-checks-on-gpus).
 
 ## Passes of `walr`
 

@@ -4,17 +4,14 @@
     update_results.py methods FOLDER    takes the comparison of methods from FOLDER/bench.json, and its pictures
     update_results.py costs FOLDER      takes only the bytes, taps and memory of these methods, after a change of no result
     update_results.py gpu FOLDER        takes the times on a GPU from FOLDER/gpu_report.json
-    update_results.py scenes FOLDER     takes the rendered scenes and the times by content from FOLDER/bench.json
     update_results.py                   writes the documents again from results.json
     update_results.py --check           fails if a document differs from what results.json gives
 
 The values in the documents are stored in results.json next to this script. From it, the script writes the marked part of
-README.md, samples/bench/RESULTS.md, GPU.md and SCENES.md beside it, and the plot samples/images/pareto.png. Images need
-matplotlib.
+README.md, samples/bench/RESULTS.md and GPU.md beside it, and the plot samples/images/pareto.png. Images need matplotlib.
 Estimated GPU times come from samples/estimate/shader_figures.json, which `cmake --build build --target update_costs` writes.
 """
 import json
-import math
 import pathlib
 import sys
 
@@ -31,8 +28,6 @@ END = "<!-- Written by samples/bench/update_results.py: end -->\n"
 FIGURES = ("rmse", "ssim", "flip", "flicker", "vmaf")
 LABELS = {"rmse": "RMSE", "ssim": "SSIM", "flip": "FLIP", "flicker": "flicker"}
 DECIMALS = {"rmse": 4, "ssim": 3, "flip": 3, "flicker": 4}
-SCENE_COLUMNS = (("clean_rmse", "RMSE", 5), ("rmse", "RMSE with noise", 5), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),
-                 ("flicker", "flicker", 5))
 RESPONSES = ("first_frame_rmse", "settled_rmse", "settled_flicker", "light_frames", "light_lag", "recovery_frames")
 GPU_SIZE = "{} x {}".format(*PAGE_SIZES[0])
 UNFILTERED = ("accumulate", "none")
@@ -93,28 +88,6 @@ def keep_costs(data, kept):
         sys.exit(f"bench.json lacks {listed(missing)}")
     methods = {name: {**method, **costs[name]} for name, method in kept["methods"].items()}
     return {**kept, "costs_commit": data["commit"][:12], "methods": methods}
-
-
-def keep_scenes(data):
-    """The values of the rendered scenes, and the times by content, that SCENES.md shows."""
-    kept = {**origin(data), "sequences": {}, "contents": {}}
-    methods = [v["name"] for v in data["variants"] if v["name"] in (v["method"], f"{v['method']}:{v['preset']}")]
-    for sequence in data["sequences"]:
-        noise = {f["frame"]: f["reference_noise"] for f in sequence["frames"] if f["reference_noise"] is not None}
-        runs = {}
-        for run in sequence["runs"]:
-            if run["variant"] not in methods:
-                continue
-            frames = [f for f in run["frames"] if f["rmse"] is not None]
-            runs[run["variant"]] = {m: rounded(run["mean_after_4"][m]) for m in FIGURES[:4]}
-            runs[run["variant"]]["clean_rmse"] = rounded(mean(math.sqrt(max(f["rmse"] ** 2 - noise[f["frame"]] ** 2, 0.0))
-                                                             for f in frames))
-            runs[run["variant"]]["time"] = rounded(run["ratio"]["median"])
-        kept["sequences"][sequence["name"]] = {"size": [sequence["width"], sequence["height"]],
-                                               "noise": rounded(mean(noise.values())), "runs": runs}
-    for entry in data["contents"]:
-        kept["contents"][entry["variant"]] = {t["content"]: rounded(t["ratio"]["median"], 3) for t in entry["timings"]}
-    return kept
 
 
 # The documents.
@@ -185,27 +158,21 @@ def readme_part(kept, gpu):
 
 *Lower left is better. Grey line: Pareto front. RMSE is the mean over both sequences.*
 
-All figures, presets and pictures of the hardest places: [samples/bench/RESULTS.md](samples/bench/RESULTS.md). Larger pictures and
-moving objects, with an older version: [samples/bench/SCENES.md](samples/bench/SCENES.md).
+All figures, presets and pictures of the hardest places: [samples/bench/RESULTS.md](samples/bench/RESULTS.md).
 """)
-
-
-def best_method(values, figure):
-    return (max if figure == "ssim" else min)(values, key=values.get)
 
 
 def standing(runs, baseline, figures):
     """States in which metrics the baseline is best, and how far it is behind in the others; only methods with a spatial filter count."""
     ahead, others = [], []
     for figure in figures:
-        label = "RMSE" if figure == "clean_rmse" else LABELS[figure]
         values = {n: run[figure] for n, run in runs.items() if n not in UNFILTERED}
-        best = best_method(values, figure)
+        best = (max if figure == "ssim" else min)(values, key=values.get)
         if best == baseline:
-            ahead.append(label)
+            ahead.append(LABELS[figure])
         else:
             change = 100 * (values[baseline] / values[best] - 1)
-            others.append(f"`{best}` has the best {label}, from which that of `{baseline}` differs by {change:+.1f} %")
+            others.append(f"`{best}` has the best {LABELS[figure]}, from which that of `{baseline}` differs by {change:+.1f} %")
     return "; ".join(([f"`{baseline}` has the best {listed(ahead)} of all methods"] if ahead else []) + others)
 
 
@@ -303,78 +270,13 @@ trails, and seams that do not stay with their surface show there.*
 At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driver']}, with
 
     {kept['command']}
-""" + costs_note(kept) + renamed_note(kept)
+""" + costs_note(kept)
 
 
 def costs_note(kept):
     if "costs_commit" not in kept:
         return ""
     return f"\nBytes, taps and memory are those of commit {kept['costs_commit']}. No change between the two commits alters a picture of these sequences.\n"
-
-
-def renamed_note(kept):
-    """A note on names that were changed by hand in results.json, if any."""
-    return f"\n{kept['renamed']}\n" if "renamed" in kept else ""
-
-
-SCENES_INTRODUCTION = """# Larger pictures, jitter, moving objects
-
-Written by `samples/bench/update_results.py` from `results.json`. The built-in scenes are `box` (a walk through a room) and
-`turntable` (objects that turn and slide). They were rendered with jitter at 480 x 270, 960 x 540 and 1920 x 1080:
-
-    walr render samples/scenes/SCENE.gltf --output SCENE_HEIGHT --frames 4-15 --size SIZE --jitter --reference-spp 256 \\
-                --reference-frames 13-15 --reference-pixel area --reference-one-square-in N
-
-N is 1, 4 and 16, so that every size has the same number of pixels with a reference. `box_270` has references of 512 samples per pixel
-in frames 12 to 15. A reference is the mean over the area of the pixel, which anti-aliasing tends to.
-
-* Values are means over the frames with a reference. Bold: the best of a column.
-* **RMSE** is without the noise of the references: the root of (measured RMSE)^2 - (noise)^2. The noise is estimated from the two
-  halves of the reference's samples. This estimate is a few per cent too low, because the tone map compresses the
-  noise of the halves. So RMSE is somewhat too high; its square is too high by the same amount for all methods.
-* **RMSE with noise**, SSIM, FLIP and flicker contain the noise of the references, which is the same for all methods.
-* SSIM and FLIP treat pixels without a reference as correct. Both are therefore too good, for all methods alike.
-* **Relative time**: time of a frame over that of `walr` on the same frame in the same run, median.{processor}
-  Other programs were running at the time.
-"""
-
-
-def scene_section(name, sequence):
-    runs = sequence["runs"]
-    best = {f: best_method({n: r[f] for n, r in runs.items()}, f) for f, _, _ in SCENE_COLUMNS if f != "rmse"}
-    rows = []
-    for method, figures in runs.items():
-        row = [f"`{method}`"]
-        for figure, _, decimals in SCENE_COLUMNS:
-            text = number(figures[figure], decimals)
-            row.append(f"**{text}**" if best.get(figure) == method else text)
-        rows.append(row + [f"{figures['time']:.2f}"])
-    against = 100 * (runs["walr"]["clean_rmse"] / runs["walr_paper"]["clean_rmse"] - 1)
-    header = ["method", *(label for _, label, _ in SCENE_COLUMNS), "relative time"]
-    return (f"\n## `{name}`\n\n{table(header, rows)}\n{sequence['size'][0]} x {sequence['size'][1]}; noise of the references "
-            f".{round(sequence['noise'] * 1e4):04d}. {standing(runs, 'walr', ['clean_rmse', 'ssim', 'flip', 'flicker'])}; its RMSE is "
-            f"{abs(against):.0f} % {'below' if against < 0 else 'above'} that of `walr_paper`.\n")
-
-
-def content_section(contents):
-    if not contents:
-        return ""
-    names = list(next(iter(contents.values())))
-    rows = [[f"`{method}`", *(f"{ratios[n]:.2f}" for n in names)] for method, ratios in contents.items()]
-    return """
-## Time by content
-
-Median time of a frame of 640 x 360 over the same method's time on `wall`, a plain wall with a slab before it. `fence`: bars of one pixel,
-eight pixels apart, before the wall. `cuts`: a camera cut in every frame, so that there is never a history. `dark`: no light. The others: sky
-in the upper half, in nine tenths, and in all of the picture. On this device, a pixel whose shader ends early costs as much as its neighbours.
-
-""" + table(["method", *names], rows)
-
-
-def scenes_page(kept):
-    introduction = SCENES_INTRODUCTION.replace("{processor}", processor_note(kept))
-    return (introduction + f"\nMeasured at commit {kept['commit']}.\n" + renamed_note(kept) +
-            "".join(scene_section(name, s) for name, s in kept["sequences"].items()) + content_section(kept["contents"]))
 
 
 def replaced(readme, text):
@@ -388,7 +290,7 @@ def documents(kept):
     static = json.loads(FIGURES_FILE.read_text())
     return {readme: replaced(readme.read_text(encoding="utf-8"), readme_part(kept["methods"], kept["gpu"])),
             HERE / "RESULTS.md": results_page(kept["methods"], static, kept["gpu"]),
-            HERE / "GPU.md": gpu_page(kept["gpu"], table), HERE / "SCENES.md": scenes_page(kept["scenes"])}
+            HERE / "GPU.md": gpu_page(kept["gpu"], table)}
 
 
 # Pictures.
@@ -443,7 +345,7 @@ def save(kept):
     for name, part in kept.items():
         lines = []
         for key, value in part.items():
-            if key in ("methods", "sequences", "contents"):
+            if key == "methods":
                 inner = ",\n".join(f"  {json.dumps(k)}:{json.dumps(v, separators=(',', ':'))}" for k, v in value.items())
                 lines.append(f" {json.dumps(key)}:{{\n{inner}}}")
             else:
@@ -461,7 +363,7 @@ def main():
         if stale:
             sys.exit(f"{listed(stale)}: not what results.json gives; run samples/bench/update_results.py")
         return
-    keep = {"methods": (keep_methods, "bench.json"), "scenes": (keep_scenes, "bench.json"), "gpu": (keep_gpu, "gpu_report.json")}
+    keep = {"methods": (keep_methods, "bench.json"), "gpu": (keep_gpu, "gpu_report.json")}
     if len(arguments) == 2 and arguments[0] in keep:
         what, folder = arguments[0], pathlib.Path(arguments[1])
         kept_part, file = keep[what]

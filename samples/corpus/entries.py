@@ -153,7 +153,7 @@ METHODS = {
     "walr": 1.0, "walr:fast": 0.6, "walr_paper": 1.6, "bmfr": 0.9, "svgf": 2.2, "flr": 0.5, "accumulate": 0.2, "none": 0.03,
     "walr_paper:robust": 1.7, "joint_bilateral": 14.0,
 }
-"""The methods that are compared, with their time on two idle cores as a multiple of that of `walr` (samples/bench/SCENES.md)."""
+"""The methods that are compared, with their time on two idle cores as a multiple of that of `walr`."""
 SLOW = ("walr_paper:robust", "joint_bilateral")
 """Methods that the daily part leaves out."""
 WALR_PIXELS_PER_SECOND = 0.9e6

@@ -48,7 +48,7 @@ def luminance(colour):
 def clean_square(result, reference, half):
     """Squared error of tone-mapped values without the noise of the reference, mean over R, G, B, per pixel.
 
-    It is the definition of samples/bench/SCENES.md: the measured square minus that of the noise, which is estimated as half the
+    It is the measured square minus that of the noise, which is estimated as half the
     difference between the two halves of the reference's samples. A value that is not finite counts as the largest error."""
     expected = tone_map(reference)
     worst = np.where(expected < 0.5, 1.0, 0.0)

@@ -4,7 +4,7 @@
     noise.py --output DIR [--scene FILE] [--size WxH] [--sampler NAME]    renders, denoises, prints a table
 
 Frames of one moment with 1 to 64 rays per pixel are accumulated. A reference tells the error, by quantiles of luminance. The
-estimate is that by which walr chooses the share of accumulated light (passes/SHARE_EXPERIMENTS.md). It takes this frame's light y,
+estimate is that by which walr chooses the share of accumulated light (passes/LEARNT.md). It takes this frame's light y,
 the mean m of N frames and the prediction p of the fits. With the history h = (N m - y) / (N - 1), the square of m's noise is the
 mean of (m - p)^2 - (y - p)(h - p) over pixels around and over frames, relative to their light. It takes the variance to be in
 proportion to the light of a pixel. In the first 40 frames it is too high by up to an eighth: N counts no further than the longest

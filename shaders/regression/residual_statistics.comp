@@ -58,7 +58,7 @@ float windowWeight(int offset) { return 1.0 - float(abs(offset)) / float(kRadius
 // both share, as resampled light has. Such noise differs from pixel to pixel: means around a pixel have little of it,
 // and products of residuals two pixels apart almost none. What the fits miss goes on for some pixels, along one axis at
 // least. `both`: sums of previousStatisticsAt; `far`: sums of the products two pixels apart, by axis.
-// The limits are measured (passes/SHARE_EXPERIMENTS.md).
+// The limits are measured (passes/LEARNT.md, "Share of accumulated light").
 float trustIn(vec4 both, vec2 far) {
   const float kFarWeight = 1.25, kNone = 0.75, kFull = 0.95;
   const float continuing = max(both.x, 0.0) + kFarWeight * max(abs(far.x), abs(far.y));
