@@ -13,6 +13,7 @@ Estimated GPU times come from samples/estimate/shader_figures.json, which `cmake
 """
 import json
 import pathlib
+import re
 import sys
 
 from gpu_page import PAGE_SIZES, gpu_page, keep_gpu, milliseconds
@@ -46,8 +47,9 @@ def rounded(value, decimals=6):
 
 
 def origin(data):
-    """Commit, command and device of the measurements."""
-    return {"commit": data["commit"][:12], "compiler": f"{data['compiler']}, {data['build_type']}", "command": data["command"],
+    """Commit, command and device of the measurements. Where the sequences lay does not belong to the command."""
+    command = re.sub(r"(--sequences )\S*/", r"\1SEQUENCES/", data["command"])
+    return {"commit": data["commit"][:12], "compiler": f"{data['compiler']}, {data['build_type']}", "command": command,
             "device": data["device"]["name"], "driver": data["device"]["driver"], "software": data["device"]["software"]}
 
 

@@ -2,6 +2,7 @@
 import dataclasses
 import hashlib
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -9,7 +10,9 @@ import tempfile
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
 BUILT_IN = PROJECT / "samples" / "scenes"
-SHARED = PROJECT.parent / "shared" / "scenes"
+SHARED = pathlib.Path(os.environ.get("WALR_SHARED") or "$WALR_SHARED")
+"""Folder of scenes and sequences that are not part of the project. Without the environment variable its name stands in their
+paths, so that messages about absent files say what to set."""
 
 PATHS_PER_SECOND = 400e3
 """Paths that `walr render` traces in a second on two idle cores. Scenes differ by about a factor of two."""
@@ -112,7 +115,7 @@ def built_in(name, scene, *more, **settings):
 
 
 def shared(name, scene, *more, **settings):
-    return Entry(name, SHARED / f"{scene}.glb", *more, **settings)
+    return Entry(name, SHARED / "scenes" / f"{scene}.glb", *more, **settings)
 
 
 def corpus():

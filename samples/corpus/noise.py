@@ -132,7 +132,7 @@ def rows_of(walr, folder, reference):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for frames and results")
-    parser.add_argument("--scene", default=table.SHARED / "cornell_fence.glb")
+    parser.add_argument("--scene", default=table.SHARED / "scenes" / "cornell_fence.glb")
     parser.add_argument("--size", default="384x216", help="default: %(default)s")
     parser.add_argument("--sampler", default="blue-noise", help="of walr render; default: %(default)s")
     parser.add_argument("--walr", type=pathlib.Path, default=table.PROJECT / "build" / "bin" / "walr", help="the program")

@@ -30,7 +30,7 @@ KEPT = HERE / "rates.json"
 PLAIN = "plain"
 """Name of the plain alternative: walr on smaller frames, interpolated."""
 METHODS = tuple(column for column in rate_pages.COLUMNS if column != PLAIN)
-CYCLES = [table.PROJECT.parent / "shared" / "sequences" / name for name in ("sponza", "cornell_fence")]
+CYCLES = [table.SHARED / "sequences" / name for name in ("sponza", "cornell_fence")]
 FRAMES = range(rate_entries.JUDGED[0], rate_entries.JUDGED[1] + 1)
 
 
@@ -187,6 +187,9 @@ def run(arguments):
     cache = rendering.Cache(arguments.cache, arguments.walr)
     groups = [rate_entries.of_scene(scene) for scene in rate_entries.SCENES]
     wanted = [e for kinds in groups for entries in kinds for e in entries.values()]
+    for scene in sorted({e.scene for e in wanted if not e.scene.exists()}):
+        print(f"left out, because there is no file: {scene}", file=sys.stderr)
+    wanted = [e for e in wanted if e.scene.exists()]
     if not arguments.rendered_only:
         rendering.render_all(sorted(wanted, key=lambda e: e.samples), cache, lambda text: print(text, flush=True))
     all_sums, noise = {}, {}

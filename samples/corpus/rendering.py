@@ -67,7 +67,7 @@ class Cache:
 
     def complete(self, entry):
         """Whether everything of an entry has been rendered."""
-        return all((self.sequence(entry) / file).exists() for file in self.files(entry))
+        return entry.scene.exists() and all((self.sequence(entry) / file).exists() for file in self.files(entry))
 
     def work(self, entry, file):
         """Paths of one file of an entry."""

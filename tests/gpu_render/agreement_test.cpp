@@ -19,7 +19,7 @@
 #include "samples/render/load_scene.h"
 #include "tests/gpu_render/tracing_fixture.h"
 #include "tests/render/scene_builder.h"
-#include "tests/render/shared_data.h"
+#include "tests/shared_data.h"
 
 namespace walr::gpu_render::test {
 namespace {
@@ -196,14 +196,14 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, SceneAgreement,
                            return name.substr(0, name.find('.'));
                          });
 
-class SharedSceneAgreement : public TracingTest, public testing::WithParamInterface<const char*> {};
+class SharedDataAgreement : public TracingTest, public testing::WithParamInterface<const char*> {};
 
 // In Sponza, normal maps would turn a rounding of a hit into another direction, more so at every bounce: with four
 // bounces, light agrees only because paths have no roundings that differ (samples/render/exact/arithmetic.h).
-TEST_P(SharedSceneAgreement, OfSamplesAndMeans) {
-  const auto path = render::test::sharedData(std::filesystem::path("scenes") / GetParam());
-  if (!path) GTEST_SKIP() << "the scene is absent";
-  Pair pair(gpu, render::loadScene(*path, {}));
+TEST_P(SharedDataAgreement, OfSamplesAndMeans) {
+  const walr::test::SharedData scene(std::filesystem::path("scenes") / GetParam());
+  if (!scene) GTEST_SKIP() << scene.whyNot();
+  Pair pair(gpu, render::loadScene(scene.path(), {}));
   pair.moveTo(5);
   const SamplingSettings settings = settingsOf(render::Sampler::Kind::BlueNoise, 4, 5);
   expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
@@ -211,7 +211,7 @@ TEST_P(SharedSceneAgreement, OfSamplesAndMeans) {
   expectSameMeans(pair, kFewFrames);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shared, SharedSceneAgreement,
+INSTANTIATE_TEST_SUITE_P(Shared, SharedDataAgreement,
                          testing::Values("cornell_fence.glb", "sponza.glb", "living_room.glb"), [](const auto& test) {
                            const std::string name = test.param;
                            return name.substr(0, name.find('.'));

@@ -1,4 +1,4 @@
-// The stages of WALR agree with the reference on crops of real path-traced frames, if these are installed.
+// The stages of WALR agree with the reference on crops of real path-traced frames, if these are at hand.
 
 #include <filesystem>
 
@@ -6,6 +6,7 @@
 #include "samples/sequence/sequence.h"
 #include "tests/passes/reference/storage.h"
 #include "tests/passes/stage_checks.h"
+#include "tests/shared_data.h"
 #include "tests/vulkan/gpu_fixture.h"
 
 namespace walr::test {
@@ -57,14 +58,14 @@ HostFrame cropOf(const Frame& frame, const Layout& layout, glm::ivec2 origin) {
   return crop;
 }
 
-class WalrRealFramesTest : public fg::test::GpuTest {
+class SharedDataRealFrames : public fg::test::GpuTest {
  protected:
   void expectCrop(const char* name, FrameRange range, glm::ivec2 origin) const {
-    const std::filesystem::path folder = std::filesystem::path(WALR_SEQUENCES) / name;
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " does not exist: there are no frames to compare";
+    const SharedData folder(std::filesystem::path("sequences") / name);
+    if (!folder) GTEST_SKIP() << folder.whyNot();
     SequenceOptions options;
     options.frames = range;
-    const Sequence sequence(folder, options);
+    const Sequence sequence(folder.path(), options);
     std::vector<HostFrame> frames;
     for (std::size_t i = 0; i < sequence.entries().size(); ++i)
       frames.push_back(cropOf(sequence.read(i), *sequence.layout().layout, origin));
@@ -72,11 +73,11 @@ class WalrRealFramesTest : public fg::test::GpuTest {
   }
 };
 
-TEST_F(WalrRealFramesTest, FenceInABox) {
+TEST_F(SharedDataRealFrames, FenceInABox) {
   expectCrop("cornell_fence", {10, 12}, {140, 90});
 }
 
-TEST_F(WalrRealFramesTest, OpenCourt) {
+TEST_F(SharedDataRealFrames, OpenCourt) {
   expectCrop("sponza", {18, 20}, {150, 60});
 }
 

@@ -1,4 +1,4 @@
-// Compares the path tracer with Blender Cycles: frames of the same scenes and cameras.
+// Compares the path tracer with Blender Cycles: frames of the same scenes and cameras, if they are at hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 #include "samples/render/film.h"
 #include "samples/render/gbuffer.h"
 #include "samples/render/load_scene.h"
-#include "tests/render/shared_data.h"
 #include "tests/render/statistics.h"
+#include "tests/shared_data.h"
 
 namespace walr::render {
 namespace {
@@ -52,20 +52,19 @@ struct Case {
   int frame;
 };
 
-class Cycles : public testing::TestWithParam<Case> {};
+class SharedDataCycles : public testing::TestWithParam<Case> {};
 
-TEST_P(Cycles, GBufferAgrees) {
+TEST_P(SharedDataCycles, GBufferAgrees) {
   const auto [name, number] = GetParam();
-  const auto glb = test::sharedData("scenes/" + name + ".glb");
-  const auto exr = test::sharedData("sequences/" + name + "/noisy_00" + std::to_string(number) + ".exr");
-  if (!glb || !exr) {
-    return;
-  }
-  const Scene scene = loadScene(*glb);
+  const walr::test::SharedData glb("scenes/" + name + ".glb");
+  const walr::test::SharedData exr("sequences/" + name + "/noisy_00" + std::to_string(number) + ".exr");
+  if (!glb) GTEST_SKIP() << glb.whyNot();
+  if (!exr) GTEST_SKIP() << exr.whyNot();
+  const Scene scene = loadScene(glb.path());
   World world(scene);
   world.moveTo(number / kFramesPerSecond, (number - 1) / kFramesPerSecond);
   const View view = viewFrom(world, findCamera(scene, ""), kWidth, kHeight, glm::vec2(0.0F), glm::vec2(0.0F));
-  ExrReader file(*exr);
+  ExrReader file(exr.path());
   const walr::Image depth = readPlane(file, "Depth", "Z");
   const walr::Image position = readPlane(file, "Position", "XYZ");
   const walr::Image normal = readPlane(file, "Normal", "XYZ");
@@ -136,14 +135,13 @@ double average(const glm::vec3& color) {
   return (color.x + color.y + color.z) / 3.0;
 }
 
-TEST_P(Cycles, MeanLightAgrees) {
+TEST_P(SharedDataCycles, MeanLightAgrees) {
   const auto [name, number] = GetParam();
-  const auto glb = test::sharedData("scenes/" + name + ".glb");
-  const auto exr = test::sharedData("sequences/" + name + "/noisy_00" + std::to_string(number) + ".exr");
-  if (!glb || !exr) {
-    return;
-  }
-  Scene scene = loadScene(*glb);
+  const walr::test::SharedData glb("scenes/" + name + ".glb");
+  const walr::test::SharedData exr("sequences/" + name + "/noisy_00" + std::to_string(number) + ".exr");
+  if (!glb) GTEST_SKIP() << glb.whyNot();
+  if (!exr) GTEST_SKIP() << exr.whyNot();
+  Scene scene = loadScene(glb.path());
   // The frames were rendered with Blender's Principled BSDF, whose diffuse lobe is not Lambertian.
   scene.diffuseModel = DiffuseModel::Disney;
   World world(scene);
@@ -152,7 +150,7 @@ TEST_P(Cycles, MeanLightAgrees) {
   SamplingSettings sampling;
   sampling.samples = 2;
   const Film film = renderFilm(world, view, sampling);
-  ExrReader file(*exr);
+  ExrReader file(exr.path());
   for (const auto& [plane, ours] : {std::pair("DiffInd", &film.indirect), std::pair("DiffDir", &film.direct)}) {
     const walr::Image theirs = readPlane(file, plane, "RGB");
     test::Statistics cycles;
@@ -172,7 +170,7 @@ TEST_P(Cycles, MeanLightAgrees) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Cycles,
+INSTANTIATE_TEST_SUITE_P(Scenes, SharedDataCycles,
                          testing::Values(Case{"sponza", 20}, Case{"sponza", 29}, Case{"cornell_fence", 10},
                                          Case{"cornell_fence", 17}),
                          [](const auto& info) { return info.param.scene + "_" + std::to_string(info.param.frame); });

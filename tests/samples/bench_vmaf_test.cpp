@@ -10,6 +10,7 @@
 #include "samples/errors.h"
 #include "tests/error_text.h"
 #include "tests/samples/temporary_directory.h"
+#include "tests/shared_data.h"
 
 namespace walr {
 namespace {
@@ -101,14 +102,16 @@ TEST_F(VmafTest, ClipsHoldWhatADisplayShows) {
   EXPECT_FALSE(fs::exists(file)) << "a clip's file goes with it";
 }
 
+// A libvmaf without a model of its own takes that of the shared data.
+using SharedDataVmaf = VmafTest;
+
 /// Scores of the real libvmaf: identical clips score almost 100, a blurred clip less than half of that (42 on natural
 /// clips with a blur of one pixel's standard deviation, libvmaf 3), and noise of 0.1 changes the score little.
-TEST_F(VmafTest, ScoresAsLibvmafDoes) {
+TEST_F(SharedDataVmaf, ScoresAsLibvmafDoes) {
   const char* program = std::getenv("WALR_FFMPEG");
-  std::optional<VmafTool> tool;
-  for (const fs::path& model : {fs::path(), fs::path(WALR_SHARED_DATA) / "vmaf" / "vmaf_v0.6.1.pkl"}) {
-    if (!tool) tool = VmafTool::find(program == nullptr ? "ffmpeg" : program, model, whyNot);
-  }
+  const test::SharedData model("vmaf/vmaf_v0.6.1.pkl");
+  std::optional<VmafTool> tool = VmafTool::find(program == nullptr ? "ffmpeg" : program, {}, whyNot);
+  if (!tool && model) tool = VmafTool::find(program == nullptr ? "ffmpeg" : program, model.path(), whyNot);
   if (!tool) GTEST_SKIP() << whyNot << " (set WALR_FFMPEG to a program for this test)";
   const auto frame = [](int number, int blur, double noise) {
     Image image(kExtent.width, kExtent.height, 3);

@@ -1,4 +1,4 @@
-// The linter of inputs on path-traced sequences, if they are available: on the unchanged frames, and on spoiled ones.
+// The linter of inputs on path-traced sequences, if they are at hand: on the unchanged frames, and on spoiled ones.
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -9,6 +9,7 @@
 #include "passes/lint/input_linter.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/sequence/sequence.h"
+#include "tests/shared_data.h"
 
 namespace walr {
 namespace {
@@ -36,25 +37,21 @@ std::vector<std::string> findings(const Sequence& sequence, const std::function<
 
 using Names = std::vector<std::string>;
 
-class LintOnSequence : public testing::TestWithParam<const char*> {
- protected:
-  static std::filesystem::path folder() { return std::filesystem::path(WALR_SEQUENCES) / GetParam(); }
-  void SetUp() override {
-    if (!std::filesystem::exists(folder())) GTEST_SKIP() << folder() << " is not here: nothing to look at";
-  }
-};
+class SharedDataLint : public testing::TestWithParam<const char*> {};
 
-TEST_P(LintOnSequence, NothingLooksWrong) {
-  EXPECT_EQ(findings(Sequence(folder(), {}), [](Frame&) {}), Names{});
+TEST_P(SharedDataLint, NothingLooksWrong) {
+  const test::SharedData folder(std::filesystem::path("sequences") / GetParam());
+  if (!folder) GTEST_SKIP() << folder.whyNot();
+  EXPECT_EQ(findings(Sequence(folder.path(), {}), [](Frame&) {}), Names{});
 }
 
-INSTANTIATE_TEST_SUITE_P(Sequences, LintOnSequence, testing::Values("cornell_fence", "sponza"));
+INSTANTIATE_TEST_SUITE_P(Sequences, SharedDataLint, testing::Values("cornell_fence", "sponza"));
 
 // At one sample per pixel, noise hides the contrast of an albedo left in the light; the linter must find it
 // nevertheless.
-TEST(LintOnNoise, FindsAlbedoAndMotion) {
-  const std::filesystem::path folder = std::filesystem::path(WALR_SEQUENCES) / "sponza";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here: nothing to look at";
+TEST(SharedDataLintOnNoise, FindsAlbedoAndMotion) {
+  const test::SharedData folder("sequences/sponza");
+  if (!folder) GTEST_SKIP() << folder.whyNot();
   const auto leaveAlbedoIn = [](Frame& frame) {
     const auto albedo = frame.albedo.values();
     for (std::size_t i = 0; i < albedo.size(); ++i) frame.indirect.values()[i] *= albedo[i];
@@ -62,10 +59,11 @@ TEST(LintOnNoise, FindsAlbedoAndMotion) {
   SequenceOptions options;
   for (const int first : {16, 19}) {
     options.frames = {first, first};
-    EXPECT_EQ(findings(Sequence(folder, options), leaveAlbedoIn), Names{"albedo-in-lighting"}) << "a single frame";
+    EXPECT_EQ(findings(Sequence(folder.path(), options), leaveAlbedoIn), Names{"albedo-in-lighting"})
+        << "a single frame";
   }
   options.frames = {16, 19};
-  const Sequence sequence(folder, options);
+  const Sequence sequence(folder.path(), options);
   EXPECT_EQ(findings(sequence, leaveAlbedoIn), Names{"albedo-in-lighting"});
   EXPECT_EQ(findings(sequence,
                      [](Frame& frame) {

@@ -1,4 +1,4 @@
-// Every method on path-traced sequences, if they are available: minimum quality that makes a method worth comparing.
+// Every method on path-traced sequences, if they are at hand: minimum quality that makes a method worth comparing.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,6 +9,7 @@
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/metrics/metrics.h"
 #include "samples/sequence/sequence.h"
+#include "tests/shared_data.h"
 
 namespace walr {
 namespace {
@@ -18,7 +19,7 @@ struct Frames {
   FrameRange range;  ///< Frames with a moving camera.
 };
 
-class MethodOnSequence : public testing::TestWithParam<std::tuple<const char*, Frames>> {};
+class SharedDataMethods : public testing::TestWithParam<std::tuple<const char*, Frames>> {};
 
 /// Errors of the last frame of a range.
 ErrorFigures errorsOf(const GpuDevice& device, const Sequence& sequence, Denoiser& method, std::size_t frames) {
@@ -34,13 +35,13 @@ ErrorFigures errorsOf(const GpuDevice& device, const Sequence& sequence, Denoise
   return errors;
 }
 
-TEST_P(MethodOnSequence, BeatsItsInputAndAccumulationAlone) {
+TEST_P(SharedDataMethods, BeatsItsInputAndAccumulationAlone) {
   const auto& [name, frames] = GetParam();
-  const std::filesystem::path folder = std::filesystem::path(WALR_SEQUENCES) / frames.sequence;
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here: nothing to compare";
+  const test::SharedData folder(std::filesystem::path("sequences") / frames.sequence);
+  if (!folder) GTEST_SKIP() << folder.whyNot();
   SequenceOptions options;
   options.frames = frames.range;
-  const Sequence sequence(folder, options);
+  const Sequence sequence(folder.path(), options);
   const GpuDevice device({.device = {}, .validation = false});
 
   const ErrorFigures noisy = errorsOf(device, sequence, *makeDenoiser("none"), 1);
@@ -63,7 +64,7 @@ TEST_P(MethodOnSequence, BeatsItsInputAndAccumulationAlone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Methods, MethodOnSequence,
+    Methods, SharedDataMethods,
     testing::Combine(testing::Values("walr", "bmfr", "svgf", "flr", "joint_bilateral"),
                      testing::Values(Frames{"cornell_fence", {10, 12}}, Frames{"sponza", {18, 20}})),
     [](const auto& info) { return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param).sequence; });

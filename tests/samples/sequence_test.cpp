@@ -20,6 +20,7 @@
 #include "tests/error_text.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
+#include "tests/shared_data.h"
 
 namespace walr {
 namespace {
@@ -568,13 +569,11 @@ INSTANTIATE_TEST_SUITE_P(EveryChannel, NonFiniteTest,
                                          "DiffCol.R", "DiffCol.G", "DiffCol.B", "Normal.X", "Normal.Y", "Normal.Z",
                                          "Depth.Z", "Vector.X", "Vector.Y", "Emit.R", "Emit.G", "Emit.B"));
 
-TEST(DevelopmentSequences, AreRecognisedAndRead) {
-  const std::filesystem::path root = WALR_SEQUENCES;
-  if (!std::filesystem::is_directory(root)) {
-    GTEST_SKIP() << root << " does not exist";
-  }
+TEST(SharedDataSequences, AreRecognisedAndRead) {
+  const test::SharedData root("sequences");
+  if (!root) GTEST_SKIP() << root.whyNot();
   for (const char* name : {"sponza", "cornell_fence"}) {
-    const Sequence sequence(root / name, {});
+    const Sequence sequence(root.path() / name, {});
     EXPECT_EQ(sequence.layout().layout, &cyclesLayout());
     EXPECT_EQ(sequence.extent(), (fg::Extent{384, 216}));
     EXPECT_TRUE(sequence.hasReferences());
