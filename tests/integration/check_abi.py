@@ -86,7 +86,9 @@ def main():
     staging.mkdir(parents=True)
     suppressions = staging / "growth.ini"
     suppressions.write_text(f"[suppress_type]\n  type_kind = struct\n  name_regexp = ^({'|'.join(versioned)})$\n"
-                            "  has_data_member_inserted_at = end\n")
+                            "  has_data_member_inserted_at = end\n"
+                            # Newer versions of abidiff tell a structure's size apart from the member that makes it larger.
+                            "  has_size_change = yes\n")
     today = build(cc, staging / "today", headers, lambda text: text)
     grown = build(cc, staging / "grown", headers, grow_at_end)
     report = differ(suppressions, today, grown)

@@ -74,8 +74,7 @@ class LibplaceboDenoiser : public HostedCall {
     std::vector<WalrImage> images(shared_.size());
     for (const auto& [name, values] : inputs) upload(name, values);
     for (std::size_t i = 0; i < shared_.size(); ++i) {
-      if (!pl_vulkan_hold(gpu_, shared_[i].texture, VK_IMAGE_LAYOUT_GENERAL,
-                          {timeline_.semaphore(), timeline_.raise()})) {
+      if (!hold(shared_[i].texture, {timeline_.semaphore(), timeline_.raise()})) {
         throw std::runtime_error("libplacebo holds no " + needed()[i].name);
       }
       images[i] = describe(shared_[i], needed()[i].size);
@@ -90,7 +89,7 @@ class LibplaceboDenoiser : public HostedCall {
     host_submit_between(host_, commands, timeline_.semaphore(), waited, done);
 
     for (const Shared& image : shared_) {
-      pl_vulkan_release(gpu_, image.texture, VK_IMAGE_LAYOUT_GENERAL, {timeline_.semaphore(), done});
+      release(image.texture, {timeline_.semaphore(), done});
     }
     require(result);
   }
@@ -116,6 +115,33 @@ class LibplaceboDenoiser : public HostedCall {
   }
 
  private:
+  // Newer versions of libplacebo have only the functions that take a structure, and older ones only the others.
+#ifdef WALR_LIBPLACEBO_HOLDS_BY_STRUCTURE
+  [[nodiscard]] bool hold(pl_tex texture, pl_vulkan_sem signalled) const {
+    pl_vulkan_hold_params params{};
+    params.tex = texture;
+    params.layout = VK_IMAGE_LAYOUT_GENERAL;
+    params.qf = VK_QUEUE_FAMILY_IGNORED;
+    params.semaphore = signalled;
+    return pl_vulkan_hold_ex(gpu_, &params);
+  }
+  void release(pl_tex texture, pl_vulkan_sem awaited) const {
+    pl_vulkan_release_params params{};
+    params.tex = texture;
+    params.layout = VK_IMAGE_LAYOUT_GENERAL;
+    params.qf = VK_QUEUE_FAMILY_IGNORED;
+    params.semaphore = awaited;
+    pl_vulkan_release_ex(gpu_, &params);
+  }
+#else
+  [[nodiscard]] bool hold(pl_tex texture, pl_vulkan_sem signalled) const {
+    return pl_vulkan_hold(gpu_, texture, VK_IMAGE_LAYOUT_GENERAL, signalled);
+  }
+  void release(pl_tex texture, pl_vulkan_sem awaited) const {
+    pl_vulkan_release(gpu_, texture, VK_IMAGE_LAYOUT_GENERAL, awaited);
+  }
+#endif
+
   [[nodiscard]] Shared create(const NeededImage& image) const {
     pl_tex_params params{};
     params.w = static_cast<int>(image.size.width);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,7 @@ using fg::test::expectError;
 
 constexpr fg::Extent kExtent{640, 360};
 
-const PassType& typeOf(const std::string& name) {
+const PassType& typeOf(std::string_view name) {
   return *std::ranges::find(passTypes(), name, &PassType::name);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <stdexcept>
+#include <string_view>
 
 namespace stage_host {
 namespace {
@@ -9,11 +10,11 @@ namespace {
 constexpr VkPipelineStageFlags2 kStage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr VkAccessFlags2 kAccess = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
 
-const WalrPassType& typeNamed(const WalrApi& api, const std::string& name) {
+const WalrPassType& typeNamed(const WalrApi& api, std::string_view name) {
   for (std::uint32_t i = 0; i < api.pass_type_count(); ++i) {
     if (name == api.pass_type(i)->name) return *api.pass_type(i);
   }
-  throw std::runtime_error("there is no stage " + name);
+  throw std::runtime_error("there is no stage " + std::string(name));
 }
 
 bool isHostImage(const std::string& port) {
