@@ -67,7 +67,10 @@ def problems(groups, faults):
         if fault.old == fault.new:
             found.append(f"{fault.id}: the new text is the old one")
         file = PROJECT / fault.file
-        count = file.read_text().count(fault.old) if fault.old and file.is_file() else 0
+        if not file.is_file():
+            found.append(f"{fault.id}: there is no file {fault.file}")
+            continue
+        count = file.read_text().count(fault.old) if fault.old else 0
         if count != 1:
             found.append(f"{fault.id}: {fault.file} holds its old text {count} times: {fault.old}")
     return found
