@@ -12,7 +12,7 @@ namespace walr::test {
 /// A table of the integration guide that tests generate. It lies between two comments that carry its name.
 class GuideTable {
  public:
-  /// Throws std::runtime_error if the guide at `path` has no place for the table `name`.
+  /// Throws std::runtime_error if the guide's page at `path` has no place for the table `name`.
   GuideTable(std::string path, const std::string& name) : path_(std::move(path)) {
     std::ifstream file(path_);
     guide_.assign(std::istreambuf_iterator<char>(file), {});

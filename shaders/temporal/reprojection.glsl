@@ -133,7 +133,7 @@ vec3 previousNormalAt(ivec2 p) {
 bvec4 both(bvec4 a, bvec4 b) { return mix(bvec4(false), a, b); }
 
 // If depth is found, a surface may change its depth from one frame to the next by this share of it, besides the change
-// that the camera makes (integration/README.md, "Motion without depth").
+// that the camera makes (integration/docs/images.md, "Motion without depth").
 const float kMostDepthChange = 0.1;
 const float kNoTap = 3.4e38;
 

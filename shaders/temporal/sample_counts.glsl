@@ -1,7 +1,7 @@
 // Light whose texels are means of several samples (kLightCounted of light_sample.glsl; "Sparse light" in
-// integration/README.md). History length is then a number of samples, but the longest history stays a number of frames:
-// each counts for as many samples as this one. History may hold more samples than that, because earlier frames had more.
-// It then loses the share of one frame in each frame, as any history of full length does.
+// integration/docs/advanced.md). History length is then a number of samples, but the longest history stays a number of
+// frames: each counts for as many samples as this one. History may hold more samples than that, because earlier frames had
+// more. It then loses the share of one frame in each frame, as any history of full length does.
 // Needs: `constants.maxHistory`, light_sample.glsl.
 #ifndef WALR_SAMPLE_COUNTS_GLSL
 #define WALR_SAMPLE_COUNTS_GLSL

@@ -175,7 +175,7 @@ std::string twoLightsTable() {
 }
 
 TEST(Guide, CostsOfTwoLightsAreThoseOfThePlans) {
-  const test::GuideTable guide(WALR_GUIDE, "Two lights");
+  const test::GuideTable guide(WALR_GUIDE "/advanced.md", "Two lights");
   if (test::GuideTable::writing()) return guide.write(twoLightsTable());
   EXPECT_EQ(guide.text(), twoLightsTable()) << "build the target update_guide";
 }
@@ -185,7 +185,7 @@ TEST(Guide, KnowsTheFormatsOfItsTable) {
 }
 
 TEST(Guide, ImageFormatsAreThoseThatTheLibraryChecks) {
-  const test::GuideTable guide(WALR_GUIDE, "Image formats");
+  const test::GuideTable guide(WALR_GUIDE "/images.md", "Image formats");
   if (test::GuideTable::writing()) return guide.write(formatTable());
   EXPECT_EQ(guide.text(), formatTable()) << "build the target update_guide";
 }

@@ -392,7 +392,7 @@ TEST_F(PluginTest, MemoryInTheGuideIsWhatTheDriverRequires) {
     }
     EXPECT_EQ(api().destroy_passes(passes), WALR_SUCCESS);
   }
-  const walr::test::GuideTable guide(WALR_GUIDE, "Memory");
+  const walr::test::GuideTable guide(WALR_GUIDE "/frames.md", "Memory");
   if (walr::test::GuideTable::writing()) return guide.write(table);
   EXPECT_EQ(guide.text(), table) << "build the target update_guide";
 }

@@ -122,7 +122,7 @@ TEST(MotionDepth, TheGuideTellsWhatFindingItCosts) {
   }
   device.refuseMessages();
 
-  const GuideTable guide(WALR_GUIDE, "Motion without depth");
+  const GuideTable guide(WALR_GUIDE "/images.md", "Motion without depth");
   if (GuideTable::writing()) {
     std::string table = kHeading;
     for (const Row& row : measured) table += textOf(row);

@@ -1,4 +1,4 @@
-// A host that denoises with a graph of its own, from the installed C++ libraries. README.md shows its lines.
+// A host that denoises with a graph of its own, from the installed C++ libraries. The integration guide shows its lines.
 #include <cstdio>
 #include <stdexcept>
 
@@ -20,7 +20,7 @@ struct Host {
 
 }  // namespace
 
-/// Compiled to hold the README's lines against the headers; this program has no device to run it on.
+/// Compiled to hold the guide's lines against the headers; this program has no device to run it on.
 void denoise(const fg::vk::DeviceContext& device, fg::Extent extent, Host& host) {
   // Once: choose a method, declare its passes, compile them to a plan, make what the plan needs.
   const auto method = walr::makeDenoiser("walr");
