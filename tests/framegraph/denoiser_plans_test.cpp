@@ -4,8 +4,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,9 +18,11 @@
 #include "framegraph/inspect/inspect.h"
 #include "framegraph/verify/verify.h"
 #include "integration/denoise_graph.h"
+#include "samples/image/fingerprint.h"
 
-/// Compares the plans of all denoisers with recorded ones, so that every change of a plan shows in review. There is one
-/// text file per method and preset, for a fixed image size and the built-in memory table. After an intended change:
+/// Compares the plans of all denoisers with denoiser_plans.txt, which has one line per method and preset, for a fixed
+/// image size and the built-in memory table: counts that a reviewer can weigh, and hashes of the plan's text, so that
+/// no change goes unseen. `walr graph` of two builds prints what changed. After an intended change:
 ///
 ///     cmake --build build --target update_plans
 namespace walr {
@@ -50,17 +54,41 @@ void PrintTo(const Variant& variant, std::ostream* out) {
   *out << variant.name();
 }
 
-fs::path folder() {
-  return WALR_PLANS;
+/// The columns of denoiser_plans.txt. `resources` and `passes` are hashes of the text before and after the first batch:
+/// memory, heaps and resources; then passes, their barriers and accesses.
+constexpr std::string_view kColumns =
+    "plan batches barriers hand-overs persistent-bytes transient-bytes bytes-read bytes-written resources passes";
+
+std::string rowOf(const Variant& variant, const fg::Plan& plan, const std::string& text) {
+  std::size_t barriers = plan.releases.size();
+  std::ptrdiff_t handOvers = 0;
+  for (const fg::PlannedPass& pass : plan.passes) {
+    barriers += pass.barriers.size();
+    handOvers += std::ranges::count(pass.barriers, fg::BarrierReason::AliasHandOver, &fg::PlannedBarrier::reason);
+  }
+  const std::size_t batches = plan.passes.empty() ? 0 : plan.passes.back().batch + 1;
+  const std::size_t split = std::min(text.find("\nbatch 0\n"), text.size());
+  std::ostringstream row;
+  row << variant.name() << ' ' << batches << ' ' << barriers << ' ' << handOvers << ' ' << plan.memory.persistentBytes
+      << ' ' << plan.memory.transientPeakBytes << ' ' << plan.traffic.bytesRead << ' ' << plan.traffic.bytesWritten
+      << ' ' << Fingerprint().add(text.substr(0, split)).text() << ' ' << Fingerprint().add(text.substr(split)).text();
+  return row.str();
 }
 
-fs::path fileOf(const Variant& variant) {
-  return folder() / (variant.name() + ".txt");
+/// The name in a row of denoiser_plans.txt.
+std::string nameIn(const std::string& row) {
+  return row.substr(0, row.find(' '));
 }
 
-/// True if the plans are to be written instead of compared.
-bool updating() {
-  return std::getenv("WALR_UPDATE_PLANS") != nullptr;
+/// The rows of denoiser_plans.txt without the first, which names the columns.
+std::vector<std::string> recordedRows() {
+  std::ifstream in(WALR_PLANS);
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(in, line);) rows.push_back(line);
+  if (rows.empty() || rows.front() != kColumns)
+    throw std::runtime_error(WALR_PLANS ": has other columns; write it with cmake --build build --target update_plans");
+  rows.erase(rows.begin());
+  return rows;
 }
 
 std::unique_ptr<Denoiser> make(const Variant& variant) {
@@ -86,19 +114,21 @@ class DenoiserPlansTest : public testing::TestWithParam<Variant> {
 };
 
 TEST_P(DenoiserPlansTest, EqualsTheRecordedPlan) {
+  const Variant& variant = GetParam();
   const std::string text = fg::toText(desc(), plan());
-  const fs::path file = fileOf(GetParam());
-  if (updating()) {
-    std::ofstream(file) << text;
-    GTEST_SKIP() << "wrote " << file.string();
-  }
-  ASSERT_TRUE(fs::exists(file)) << "there is no " << file.string()
-                                << "; write it with cmake --build build --target update_plans";
-  const fs::path now = fs::path(testing::TempDir()) / file.filename();
-  std::ofstream(now) << text;
-  const int differs = std::system(("diff -u '" + file.string() + "' '" + now.string() + "'").c_str());
-  EXPECT_EQ(differs, 0) << "the plan differs from " << file.filename().string() << ", as shown above (-: recorded, "
-                        << "+: now); if this is intended, write it with cmake --build build --target update_plans";
+  const std::vector<std::string> rows = recordedRows();
+  const auto row = std::ranges::find(rows, variant.name(), nameIn);
+  ASSERT_NE(row, rows.end()) << WALR_PLANS " has no line for " << variant.name()
+                             << "; write it with cmake --build build --target update_plans";
+  const std::string now = rowOf(variant, plan(), text);
+  if (*row == now) return;
+  const fs::path file = fs::path(testing::TempDir()) / (variant.name() + ".txt");
+  std::ofstream(file) << text;
+  ADD_FAILURE() << "the plan of " << variant.name() << " has changed (" << kColumns << "):\n  recorded " << *row
+                << "\n  now      " << now << "\nThe plan of now is in " << file.string()
+                << ". A build of the commit before prints what it was: walr graph --method " << variant.method
+                << (variant.preset.empty() ? "" : " --preset " + variant.preset)
+                << "\nIf the change is intended, write it with cmake --build build --target update_plans";
 }
 
 TEST_P(DenoiserPlansTest, IsAcceptedByTheVerifier) {
@@ -202,17 +232,26 @@ INSTANTIATE_TEST_SUITE_P(Denoisers, DenoiserPlansTest, testing::ValuesIn(variant
   return name;
 });
 
-TEST(DenoiserPlans, EveryRecordedPlanBelongsToAMethodAndPreset) {
-  std::set<fs::path> files;
-  for (const Variant& variant : variants()) files.insert(fileOf(variant));
-  for (const auto& file : fs::directory_iterator(folder())) {
-    if (files.contains(file.path())) continue;
-    if (updating()) {
-      fs::remove(file);
-    } else {
-      ADD_FAILURE() << file.path().string() << " belongs to no method or preset: remove it";
-    }
+// With WALR_UPDATE_PLANS in the environment, writes the table instead.
+TEST(DenoiserPlans, TheTableHasOneRowForEveryMethodAndPreset) {
+  std::vector<std::string> names;
+  std::ostringstream table;
+  table << kColumns << '\n';
+  for (const Variant& variant : variants()) {
+    const std::unique_ptr<Denoiser> method = make(variant);
+    const DenoiseGraph declared = declareDenoiseGraph(*method, kExtent, InputConventions{}, kComputeHost);
+    const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
+    ASSERT_TRUE(result.ok()) << result.text();
+    names.push_back(variant.name());
+    table << rowOf(variant, result.plan, fg::toText(declared.graph.desc(), result.plan)) << '\n';
   }
+  if (std::getenv("WALR_UPDATE_PLANS") != nullptr) {
+    std::ofstream(WALR_PLANS) << table.str();
+    GTEST_SKIP() << "wrote " << WALR_PLANS;
+  }
+  std::vector<std::string> recorded;
+  std::ranges::transform(recordedRows(), std::back_inserter(recorded), nameIn);
+  EXPECT_EQ(recorded, names) << WALR_PLANS;
 }
 
 }  // namespace
