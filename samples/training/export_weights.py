@@ -3,11 +3,13 @@
 
     export_weights.py --state FILE --cache DIR --project .
 
-It writes three files of the project: the weights, passes/network/weights/flnr_PRESET.f16; their record, flnr_PRESET.json beside them; and the
-fixture, tests/passes/fixtures/flnr_PRESET.txt. The fixture is a small frame and the guides that PyTorch makes of it with these weights,
-for the tests of the shaders.
+It writes three files of the project: the weights, passes/network/weights/flnr_PRESET.f16; their record, flnr_PRESET.json beside them, with
+the points of the training's curve at which held-out scenes were judged, and the last; and the network's columns of
+tests/passes/fixtures/flnr.txt. That is a small frame and the guides that PyTorch makes of it with the weights of each preset, for the
+tests of the shaders.
 """
 import argparse
+import itertools
 import json
 import math
 import pathlib
@@ -64,9 +66,9 @@ def decoded(steps):
     return x / length, y / length, z / length
 
 
-def fixture(network, preset, width=21, height=17):
-    """Lines of a frame: width and height; then of each pixel the steps of its normal, depth (0: no surface), occlusion in steps, light,
-    samples, and the learned guides. All inputs are exact in the formats of the pipeline."""
+def frame_and_guides(network, preset, width=21, height=17):
+    """A row of texts for each pixel of a frame: the steps of its normal, depth (0: no surface), occlusion in steps, light, samples. Another
+    of the learned guides. All inputs are exact in the formats of the pipeline."""
     rng = random.Random(5)
     rows, frame = [], {name: torch.zeros(1, count, height, width) for name, count in
                        (("normal", 3), ("inverse_depth", 1), ("occlusion", 1), ("light", 3), ("samples", 1))}
@@ -88,12 +90,27 @@ def fixture(network, preset, width=21, height=17):
     rounded.load_state_dict({name: values.half().float() for name, values in network.state_dict().items()})
     with torch.no_grad():
         learned = rounded(features(frame, Means.of(frame)))[0].permute(1, 2, 0).reshape(width * height, -1).tolist()
-    lines = [" ".join(f"{v:.9g}" for v in [*row, *guides]) for row, guides in zip(rows, learned)]
-    return "\n".join([f"{width} {height}", *lines]) + "\n"
+    return [[f"{v:.9g}" for v in row] for row in rows], [[f"{v:.9g}" for v in guides] for guides in learned]
+
+
+def write_fixture(file, preset, frame, learned):
+    """The file has a line with width and height; then for each pixel the frame and the learned guides of all presets in the order of
+    PRESETS. If the frame has changed, export every preset."""
+    begin = len(frame[0]) + sum(PRESETS[name]["guides"] for name in itertools.takewhile(lambda name: name != preset, PRESETS))
+    size, *rows = [line.split() for line in file.read_text(encoding="utf-8").splitlines()]
+    for row, inputs, guides in zip(rows, frame, learned, strict=True):
+        row[:len(inputs)] = inputs
+        row[begin:begin + len(guides)] = guides
+    file.write_text("".join(" ".join(row) + "\n" for row in [size, *rows]), encoding="utf-8")
 
 
 def seeds(files):
     return [int(file.parent.name) for file in files]
+
+
+def milestones(curve):
+    """The points at which held-out scenes were judged, and the last."""
+    return [point for point in curve if "held_out_mse" in point or point is curve[-1]]
 
 
 def main():
@@ -110,10 +127,10 @@ def main():
     network.load_state_dict(state["average"])
     output = options.project / f"passes/network/weights/flnr_{preset}.f16"
     halves(network).tofile(output)
-    (options.project / f"tests/passes/fixtures/flnr_{preset}.txt").write_text(fixture(network, preset), encoding="utf-8")
+    write_fixture(options.project / "tests/passes/fixtures/flnr.txt", preset, *frame_and_guides(network, preset))
     trained, held_out = scenes(options.cache)
     record = {"preset": preset, "commit": commit(), "steps": state["steps"], "seconds": round(state["seconds"]),
-              "training_seeds": seeds(trained), "held_out_seeds": seeds(held_out), "curve": state["curve"]}
+              "training_seeds": seeds(trained), "held_out_seeds": seeds(held_out), "curve": milestones(state["curve"])}
     lines = ",\n".join(f" {json.dumps(key)}: " + ("[\n  " + ",\n  ".join(map(json.dumps, value)) + "\n ]" if key == "curve" else
                                                   json.dumps(value)) for key, value in record.items())
     output.with_suffix(".json").write_text("{\n" + lines + "\n}\n", encoding="utf-8")

@@ -35,7 +35,7 @@ GuideNetwork networkOf(NetworkKind kind) {
   return {kind, kFlnrWidths, flnrWeights(kind)};
 }
 
-/// A network with trained weights, and the name of the file that says what PyTorch makes of it.
+/// A network with trained weights, and its name.
 struct NamedNetwork {
   std::string name;
   GuideNetwork network;
@@ -204,20 +204,28 @@ struct Fixture {
   ChannelImage learned;
 };
 
+/// @param of one of allNetworks(); a line of the file holds the guides of all of them in their order
 Fixture readFixture(const NamedNetwork& of) {
-  const std::string file = WALR_PASS_FIXTURES "/" + of.name + ".txt";
+  const std::string file = WALR_PASS_FIXTURES "/flnr.txt";
   std::ifstream in(file);
   glm::ivec2 size(0);
   in >> size.x >> size.y;
   if (!in) throw std::runtime_error(file + ": cannot be read");
   Fixture fixture{Image<Guide>(size), Image<glm::dvec4>(size),
                   ChannelImage(size, reference::guideCount(of.network.kind))};
+  const std::vector<NamedNetwork> networks = allNetworks();
   forEachPixel(size, [&](glm::ivec2 p) {
     glm::dvec2 steps(0.0);
     double occlusion = 0.0;
     glm::dvec4& light = fixture.lighting[p];
     in >> steps.x >> steps.y >> fixture.guides[p].depth >> occlusion >> light.x >> light.y >> light.z >> light.w;
-    for (std::size_t g = 0; g < fixture.learned.count; ++g) in >> fixture.learned.at(g, p);
+    for (const NamedNetwork& network : networks) {
+      for (std::size_t g = 0; g < reference::guideCount(network.network.kind); ++g) {
+        double guide = 0.0;
+        in >> guide;
+        if (network.name == of.name) fixture.learned.at(g, p) = guide;
+      }
+    }
     fixture.guides[p].features = steps * reference::kUnorm12Step;
     fixture.guides[p].occlusion = occlusion * reference::kUnorm8Step;
   });
