@@ -38,8 +38,13 @@ def load(path):
     return given["groups"], [Fault(**fault) for fault in given["fault"]]
 
 
-def programs_of(groups, fault):
-    return sorted({program for group in fault.tests for program in groups[group]})
+def stages_of(groups, fault):
+    """Lists of test programs, one for each group, in the order in which they are tried: none of them is tried twice."""
+    stages = []
+    for group in fault.tests:
+        tried = {program for stage in stages for program in stage}
+        stages.append([program for program in groups[group] if program not in tried])
+    return [stage for stage in stages if stage]
 
 
 def problems(groups, faults):
@@ -90,7 +95,7 @@ class Copy:
         self.logs.mkdir(parents=True, exist_ok=True)
         if not self.source.exists():
             subprocess.run(["git", "clone", "--quiet", "--no-checkout", PROJECT, self.source], check=True)
-        self.git("fetch", "--quiet", PROJECT, commit)
+        self.git("fetch", "--quiet", PROJECT, "HEAD")
         self.git("checkout", "--quiet", "--force", "--detach", commit)
         # A fault that leaves a variable unused must still build.
         command = ["cmake", "--preset", "ci", "-DWALR_WARNINGS_AS_ERRORS=OFF"]
@@ -143,19 +148,26 @@ class Copy:
         return failed, sum(case.get("status") in ("run", "fail") for case in cases)
 
 
-def try_fault(copy, fault, programs):
-    started = time.monotonic()
-    result = {"status": "does not build", "by": "", "how": "", "tests": 0, "test_seconds": 0.0}
+def try_fault(copy, fault, stages):
+    """Builds and runs one stage after the other until a test fails. A stage without programs is the whole suite."""
+    result = {"status": "no test ran", "by": "", "how": "", "tests": 0, "build_seconds": 0.0, "test_seconds": 0.0}
     copy.apply(fault)
     try:
-        built = copy.build(fault.id, programs)
-        result["build_seconds"] = round(time.monotonic() - started, 1)
-        if built:
+        for number, programs in enumerate(stages, 1):
+            name = f"{fault.id}.{number}"
             started = time.monotonic()
-            failed, result["tests"] = copy.test(fault.id, programs, stop=True)
-            result["test_seconds"] = round(time.monotonic() - started, 1)
-            result["status"] = "caught" if failed else "not caught" if result["tests"] else "no test ran"
-            result["by"], result["how"] = failed[0] if failed else ("", "")
+            built = copy.build(name, programs)
+            result["build_seconds"] += round(time.monotonic() - started, 1)
+            if not built:
+                return {**result, "status": "does not build"}
+            started = time.monotonic()
+            failed, count = copy.test(name, programs, stop=True)
+            result["test_seconds"] += round(time.monotonic() - started, 1)
+            result["tests"] += count
+            if failed:
+                return {**result, "status": "caught", "by": failed[0][0], "how": failed[0][1]}
+            if result["tests"]:
+                result["status"] = "not caught"
     finally:
         copy.revert()
     return result
@@ -205,11 +217,11 @@ def campaign(options, groups, faults):
     if todo:
         copy = Copy(folder, options.jobs, options.timeout)
         copy.prepare(commit)
-        programs = {fault.id: [] if options.all_tests else programs_of(groups, fault) for fault in todo}
-        needed = ["all"] if options.all_tests else sorted({program for each in programs.values() for program in each})
-        require_clean(copy, results, needed, save)
+        stages = {fault.id: [[]] if options.all_tests else stages_of(groups, fault) for fault in todo}
+        needed = {program for each in stages.values() for stage in each for program in stage}
+        require_clean(copy, results, ["all"] if options.all_tests else needed, save)
         for number, fault in enumerate(todo, 1):
-            result = try_fault(copy, fault, programs[fault.id])
+            result = try_fault(copy, fault, stages[fault.id])
             results["faults"][fault.id] = {"file": fault.file, **result}
             save()
             print(f"{number}/{len(todo)} {fault.id}: {describe(result)}", flush=True)
@@ -257,8 +269,8 @@ def main():
     if options.dry_run:
         for fault in chosen:
             line = (PROJECT / fault.file).read_text().split(fault.old)[0].count("\n") + 1
-            programs = "all tests" if options.all_tests else " ".join(programs_of(groups, fault))
-            print(f"{fault.id}: {fault.file}:{line}, by {programs}")
+            stages = "all tests" if options.all_tests else ", then ".join(map(" ".join, stages_of(groups, fault)))
+            print(f"{fault.id}: {fault.file}:{line}, by {stages}")
         return 0
     if not options.work:
         sys.exit("--work DIR is missing")
