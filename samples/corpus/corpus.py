@@ -3,13 +3,12 @@
 
     corpus.py list [--part PART]                  what belongs to the corpus, and what it costs
     corpus.py run --output DIR [--part PART]      render what is missing, run the methods, judge; resumes where it was interrupted
-    corpus.py page [--check] [--name NAME] [DIR]  record the run of DIR in the project; without DIR, write its pages anew
     corpus.py agree DIR DIR                       whether two runs rank the methods alike
 
-samples/docs/corpus.md describes all of it. Needs numpy and Pillow, which come with Debian's python3-matplotlib.
+samples/docs/corpus.md describes all of it; samples/results/write.py records a run in the project. Needs numpy and Pillow, which come with Debian's python3-matplotlib.
 """
 import argparse
-import dataclasses
+import datetime
 import hashlib
 import json
 import os
@@ -19,56 +18,19 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent / "results" / "writer"))
+import corpus_page
 import entries as table
 import judging
-import pages
 import places
-import rate_entries
+import records
 import rendering
 import results
-import size_pages
 from PIL import Image
 
-HERE = pathlib.Path(__file__).resolve().parent
 BASELINE = "walr"
 OVERVIEW = "places.webp"
-SIZES = HERE / "SIZES.md"
-
-
-@dataclasses.dataclass(frozen=True)
-class Record:
-    """A run that is kept in the project: its figures, its page and the picture of its worst places."""
-
-    name: str  # Part of the files' names; that of the daily part is empty.
-
-    def path(self, stem, suffix):
-        return HERE / (f"{stem}_{self.name}{suffix}" if self.name else stem + suffix)
-
-    @property
-    def figures(self):
-        return self.path("results", ".json")
-
-    @property
-    def page(self):
-        return self.path("RESULTS", ".md")
-
-    @property
-    def overview(self):
-        return self.path("places", ".webp")
-
-    def text(self):
-        """The page that the figures give."""
-        return pages.page(json.loads(self.figures.read_text()), self.figures.name, self.overview.name)
-
-
-def records():
-    return [Record(file.stem.removeprefix("results").removeprefix("_")) for file in sorted(HERE.glob("results*.json"))]
-
-
-def sizes_text():
-    """The page of all records by size."""
-    kept = [json.loads(recorded.figures.read_text()) for recorded in records()]
-    return size_pages.page(kept, json.loads((HERE / "rates.json").read_text()), rate_entries.SIZE[1])
 
 
 def default_cache():
@@ -178,9 +140,9 @@ def run(arguments):
     output.mkdir(parents=True, exist_ok=True)
     costs = {entry.name: row for entry, *row in table.costs(entries, names)}
     remaining = rendering.Remaining(sum(row[2] for row in costs.values()))
-    part = None if arguments.entries or arguments.judged else arguments.part
-    kept = {"commit": commit(), "baseline": BASELINE, "part": part, "seed": arguments.seed, "variants": arguments.variant,
-            "entries": {}, "places": []}
+    part = None if arguments.entries else arguments.part
+    kept = {"commit": commit(), "date": datetime.date.today().isoformat(), "baseline": BASELINE, "part": part,
+            "judged": arguments.judged, "seed": arguments.seed, "variants": arguments.variant, "entries": {}, "places": []}
     all_sums = {}
     for entry in entries:
         folder, all_sums[entry.name], facts, known = judged(arguments, cache, entry, names, options)
@@ -201,24 +163,12 @@ def run(arguments):
     held = [e.name for e in entries if e.held_back]
     for name, members in (("summary", open_entries), ("held_back_summary", held)):
         kept[name] = results.summary([all_sums[n] for n in members], names, BASELINE) if members else {}
-    (output / "results.json").write_text(pages.as_text(kept))
-    (output / "RESULTS.md").write_text(pages.page(kept, "results.json", OVERVIEW), encoding="utf-8")
-    sheets = [Image.open(output / place["file"]) for place in pages.shown_places(kept)]
+    (output / "results.json").write_text(records.as_text(kept) + "\n")
+    (output / "RESULTS.md").write_text(corpus_page.page(kept, "results.json", OVERVIEW), encoding="utf-8")
+    sheets = [Image.open(output / place["file"]) for place in corpus_page.shown_places(kept)]
     if sheets:
         places.overview(sheets).save(output / OVERVIEW, quality=85)
     print(f"{output}: results.json, RESULTS.md, and pictures of the worst places")
-
-
-def write_pages(arguments):
-    if arguments.folder:
-        recorded = Record(arguments.name)
-        shutil.copy(pathlib.Path(arguments.folder) / "results.json", recorded.figures)
-        shutil.copy(pathlib.Path(arguments.folder) / OVERVIEW, recorded.overview)
-    for page, text in (*((recorded.page, recorded.text()) for recorded in records()), (SIZES, sizes_text())):
-        if not arguments.check:
-            page.write_text(text, encoding="utf-8")
-        elif not page.exists() or page.read_text(encoding="utf-8") != text:
-            sys.exit(f"{page}: not what the figures give; run samples/corpus/corpus.py page")
 
 
 def agree(arguments):
@@ -260,25 +210,15 @@ def parse(arguments):
                          default=table.PROJECT / "build" / "bin" / "walr")
     command.add_argument("--render-only", action="store_true", help="only render")
     command.add_argument("--keep-pictures", action="store_true", help="keep every result in the cache, about 3 GB for 1920 x 1080")
-    command = commands.add_parser("page")
-    command.add_argument("--check", action="store_true", help="write nothing; fail if a page is not what its figures give")
-    command.add_argument("--name", default="", help="part of the record's file names, such as 1080; default: none, for the daily part")
-    command.add_argument("folder", nargs="?", help="output of a run to record")
     command = commands.add_parser("agree")
     command.add_argument("first")
     command.add_argument("second")
-    parsed = parser.parse_args(arguments)
-    if parsed.command == "page":
-        if parsed.check and parsed.folder:
-            parser.error("page --check writes nothing, so it takes no folder to record")
-        if parsed.name and not parsed.folder:
-            parser.error("page --name names the record of a run, so it needs the run's folder")
-    return parsed
+    return parser.parse_args(arguments)
 
 
 def main(arguments=None):
     parsed = parse(arguments)
-    {"list": list_entries, "run": run, "page": write_pages, "agree": agree}[parsed.command](parsed)
+    {"list": list_entries, "run": run, "agree": agree}[parsed.command](parsed)
 
 
 if __name__ == "__main__":

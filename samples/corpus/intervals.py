@@ -47,10 +47,3 @@ def student_quantile(freedom):
     z = NORMAL_QUANTILE
     return (z + (z**3 + z) / 4 / freedom + (5 * z**5 + 16 * z**3 + 3 * z) / 96 / freedom**2 +
             (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384 / freedom**3)
-
-
-def verdict(interval):
-    """"better" or "worse" if an interval of a log ratio lies below or above 0, else "undecided"."""
-    if interval is None or interval[1] <= 0 <= interval[2]:
-        return "undecided"
-    return "better" if interval[2] < 0 else "worse"

@@ -2,15 +2,16 @@
 """Error against rays per pixel: renders the same frames with 1/9 to 64 rays per pixel, from one primary hit or from four,
 denoises and judges them.
 
-    rates.py run [--cache DIR]      render and denoise what is missing, judge; writes rates.json, RATES.md and rates.png
-    rates.py page [--check]         writes RATES.md and rates.png from rates.json
+    rates.py [--cache DIR]    render and denoise what is missing, judge; writes samples/results/data/rates.json and all pages of results
 
 An interrupted run resumes where it was. It traces 800 million paths, and takes about an hour of two idle cores. samples/docs/corpus.md
 says how errors and intervals are made. Needs numpy, Pillow and matplotlib (Debian: python3-matplotlib)."""
 import argparse
+import datetime
 import json
 import math
 import pathlib
+import subprocess
 import sys
 
 sys.dont_write_bytecode = True
@@ -20,16 +21,15 @@ import intervals
 import judging
 import numpy as np
 import rate_entries
-import rate_pages
+import rates_page
+import records
 import rendering
 import results
 from judging import exr
 
-HERE = pathlib.Path(__file__).resolve().parent
-KEPT = HERE / "rates.json"
 PLAIN = "plain"
 """Name of the plain alternative: walr on smaller frames, interpolated."""
-METHODS = tuple(column for column in rate_pages.COLUMNS if column != PLAIN)
+METHODS = tuple(column for column in rates_page.COLUMNS if column != PLAIN)
 CYCLES = [table.SHARED / "sequences" / name for name in ("sponza", "cornell_fence")]
 FRAMES = range(rate_entries.JUDGED[0], rate_entries.JUDGED[1] + 1)
 
@@ -166,15 +166,15 @@ def cycles_errors(walr, output, log):
 
 
 def figures(all_sums):
-    """RMSE by scene, rate and method, and the ratio to walr at 1 ray with its interval: by scene, and over all scenes with that rate."""
+    """RMSE by scene, rate and method, and the ratio to walr at 1 ray with its interval, over all scenes with that rate."""
 
     def root(interval):
         return interval and [results.rounded(math.exp(0.5 * v)) for v in interval]
 
-    scenes = {scene: {rate: {m: root(intervals.log_ratio_interval([p])) for m, p in methods.items()}
+    scenes = {scene: {rate: {m: (root(intervals.log_ratio_interval([p])) or [None])[0] for m, p in methods.items()}
                       for rate, methods in sums.items()} for scene, sums in all_sums.items()}
     ratios = {}
-    for rate in rate_pages.order({rate for sums in all_sums.values() for rate in sums}):
+    for rate in rates_page.order({rate for sums in all_sums.values() for rate in sums}):
         having = [sums for sums in all_sums.values() if rate in sums]
         ratios[rate] = {"scenes": len(having)}
         for method in (m for m in having[0][rate] if all(m in sums[rate] for sums in having)):
@@ -202,25 +202,19 @@ def run(arguments):
         sys.exit("no scene has been rendered at 1 ray, so there is nothing to compare with")
     scenes, ratios = figures(all_sums)
     cycles = cycles_errors(arguments.walr, cache.folder / "rates", lambda text: print(text, flush=True))
-    KEPT.write_text(json.dumps({"commit": corpus.commit(), "noise": {s: results.rounded(n) for s, n in noise.items()},
-                                "scenes": scenes, "ratios": ratios, "cycles": cycles}, indent=1) + "\n")
-    rate_pages.write(json.loads(KEPT.read_text()))
+    records.save("rates", {"date": datetime.date.today().isoformat(), "commit": corpus.commit(),
+                           "noise": {s: results.rounded(n) for s, n in noise.items()}, "scenes": scenes, "ratios": ratios,
+                           "cycles": cycles})
+    subprocess.run([sys.executable, records.RESULTS / "write.py"], check=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(dest="command", required=True)
-    command = commands.add_parser("run")
-    command.add_argument("--cache", default=corpus.default_cache(), help="folder for frames and results; default: %(default)s")
-    command.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
-                         default=table.PROJECT / "build" / "bin" / "walr")
-    command.add_argument("--rendered-only", action="store_true", help="judge what has been rendered, and leave out the rest")
-    commands.add_parser("page").add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.command == "run":
-        run(arguments)
-    else:
-        rate_pages.write(json.loads(KEPT.read_text()), check=arguments.check)
+    parser.add_argument("--cache", default=corpus.default_cache(), help="folder for frames and results; default: %(default)s")
+    parser.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
+                        default=table.PROJECT / "build" / "bin" / "walr")
+    parser.add_argument("--rendered-only", action="store_true", help="judge what has been rendered, and leave out the rest")
+    run(parser.parse_args())
 
 
 if __name__ == "__main__":

@@ -36,11 +36,6 @@ def difference(values, others, metric):
     return found and [rounded(math.exp(power * v)) for v in found]
 
 
-def verdict(ratio):
-    """"better", "worse" or "undecided" for a ratio with its interval."""
-    return intervals.verdict(ratio and [math.log(v) for v in ratio])
-
-
 def entry_results(sums, methods, baseline):
     """All figures of one sequence. sums: by method and split an array of figures x classes x blocks."""
     whole = {m: sums[m, "all"][:, 0] for m in methods}

@@ -17,18 +17,20 @@ import numpy as np
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "samples" / "corpus"))
 import corpus
+import corpus_page
 import entries
 import intervals
 import judging
 import noise
-import pages
 import places
 import rate_entries
-import rate_pages
 import rates
+import rates_page
+import records
 import rendering
 import results
-import size_pages
+import sizes_page
+from markdown_text import verdict
 
 WALR = pathlib.Path(sys.argv.pop(1)).resolve()
 TINY = entries.Entry("tiny", entries.BUILT_IN / "stair.gltf", (64, 36), (2, 4), 1, reference_samples=4, part="daily")
@@ -152,7 +154,7 @@ class Intervals(unittest.TestCase):
         trials = 2000
         for count, spread in ((11, 1.0), (21, 0.5), (21, 1.5)):
             found = [intervals.log_ratio_interval([self.blocks(count, spread)]) for _ in range(trials)]
-            called = sum(intervals.verdict(f) != "undecided" for f in found)
+            called = sum(verdict(f, 0) != "undecided" for f in found)
             # The standard deviation of the share is 0.5 %.
             self.assertTrue(0.03 < called / trials < 0.07, (count, spread, called / trials))
 
@@ -196,7 +198,7 @@ class Intervals(unittest.TestCase):
         p = np.ones(4)
         self.assertIsNone(intervals.log_ratio_interval([(p, p)]))
         self.assertIsNone(intervals.log_ratio_interval([(np.array([1, 1, 1, 1, -9.0]), np.ones(5))]))
-        self.assertEqual(intervals.verdict(None), "undecided")
+        self.assertEqual(verdict(None), "undecided")
 
     def test_students_quantiles_are_those_of_tables(self):
         for freedom, quantile in ((2, 4.303), (3, 3.182), (5, 2.571), (10, 2.228), (30, 2.042), (120, 1.980)):
@@ -263,10 +265,6 @@ class Commands(unittest.TestCase):
         self.assertIn("gone.gltf", text)
         self.assertIn("no entry left", text)
 
-    def test_a_page_is_recorded_from_a_folder_and_not_by_a_check(self):
-        self.assertIn("--check", self.refused("page", "--check", "folder"))
-        self.assertIn("--name", self.refused("page", "--name", "540"))
-
     def test_the_programs_own_message_is_shown(self):
         with self.assertRaises(SystemExit) as caught:
             entries.run_walr(WALR, "render", "--spp", "many")
@@ -315,10 +313,31 @@ class EndToEnd(unittest.TestCase):
     def test_verdicts_are_right_where_the_answer_is_known(self):
         ratios = {m: f["rmse"] for m, f in self.kept["summary"].items()}
         self.assertEqual(ratios["same"], [1.0, 1.0, 1.0])
-        self.assertEqual(results.verdict(ratios["none"]), "worse")
+        self.assertEqual(verdict(ratios["none"]), "worse")
         self.assertIn("| `none` |", (self.folder / "first" / "RESULTS.md").read_text())
         self.assertTrue((self.folder / "first" / self.kept["places"][0]["file"]).exists())
         self.assertIn("are the same", run("agree", self.folder / "first", self.folder / "first"))
+
+    def test_a_page_shows_the_same_from_what_is_recorded(self):
+        overview = self.folder / "first" / "places.webp"
+        self.assertTrue(overview.exists())
+        page = (self.folder / "first" / "RESULTS.md").read_text(encoding="utf-8")
+        self.assertEqual(corpus_page.page(records.keep_corpus(self.kept), "results.json", overview.name), page)
+        self.assertIn("--part daily --methods walr,bmfr,none --variant same=walr", page)
+        self.assertIn(self.kept["date"], page)
+
+    def test_a_comparison_of_methods_is_recorded_from_walr_bench(self):
+        sequence = next((self.folder / "cache" / "bench").glob("tiny-*"))
+        with mock.patch.object(records, "DATA", self.folder):
+            records.record_bench("cycles", sequence)
+            kept = records.load("cycles")
+        bench = json.loads((sequence / "bench.json").read_text())
+        self.assertEqual(set(kept["methods"]), {"walr", "bmfr", "none", "same"})
+        for variant in bench["variants"]:
+            cost = next(c for c in variant["costs"] if c["height"] == 1080)
+            self.assertAlmostEqual(kept["methods"][variant["name"]]["bytes"], cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"],
+                                   delta=0.05)
+        self.assertIn(f" --sequences SEQUENCES/{sequence.name} ", kept["command"])
 
     def test_nothing_is_done_twice_and_what_is_missing_is_done_again(self):
         cache = rendering.Cache(self.folder / "cache", WALR)
@@ -358,14 +377,7 @@ class Ranking(unittest.TestCase):
         self.assertEqual(results.disagreements(ahead, kept([1.2, 1.0, 1.4], [1.19, 1.0, 1.4])), [])
 
 
-class Page(unittest.TestCase):
-    def test_the_committed_pages_are_what_the_figures_give(self):
-        self.assertIn(corpus.Record(""), corpus.records())
-        for recorded in corpus.records():
-            self.assertEqual(recorded.page.read_text(encoding="utf-8"), recorded.text())
-            self.assertIn(f"({recorded.overview.name})", recorded.text())
-            self.assertTrue(recorded.overview.exists(), recorded.overview)
-
+class Listing(unittest.TestCase):
     def test_the_list_names_every_entry(self):
         command = [sys.executable, str(corpus.HERE / "corpus.py"), "list", "--part", "nightly", "--held-back"]
         text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
@@ -381,21 +393,15 @@ class Sizes(unittest.TestCase):
 
     def test_the_page_tells_errors_losses_and_gains(self):
         record = {"entries": {"ahead": self.entry(False, [1.25, 1.2, 1.3]), "behind": self.entry(True, [0.9, 0.85, 0.95])},
-                  "summary": {"flr": {"rmse": [1.25, 1.2, 1.3]}}, "held_back_summary": {"flr": {"rmse": [2.0, 1.9, 2.1]}},
-                  "commit": "abc"}
-        rates_record = {"commit": "def", "scenes": {"sponza": {"1/4": {"walr": [0.2]}, "16": {"walr": [0.02], "flr": [0.03]}}}}
-        lines = size_pages.page([record], rates_record, 216).splitlines()
-        self.assertIn("| 216 | def |", lines)
-        self.assertIn("| 540 | abc |", lines)
+                  "summary": {"flr": {"rmse": [1.25, 1.2, 1.3]}}, "held_back_summary": {"flr": {"rmse": [2.0, 1.9, 2.1]}}}
+        rates_record = {"scenes": {"sponza": {"1/4": {"walr": 0.2}, "16": {"walr": 0.02, "flr": 0.03}}}}
+        lines = sizes_page.page([record], rates_record, 216).splitlines()
         self.assertIn("| 216 | `sponza` | 16 | .0200 | - | - | - | - | 1.50 | - | - | - | - |", lines)
         self.assertIn("| 540 | `ahead` | 4 | .0100 | - | - | - | - | 1.25 &gt; | - | - | - | - |", lines)
         self.assertIn("| 540 | `behind` (held back) | 4 | .0100 | - | - | - | - | 0.90 &lt; | - | - | - | - |", lines)
         self.assertIn("| `behind` | `flr` by 10 % |", lines)
         self.assertFalse([line for line in lines if line.startswith("| `ahead` |")])
         self.assertIn("| 540 | `flr` | 20.0 % | 50.0 % | 2.50 |", lines)
-
-    def test_the_committed_page_is_what_the_figures_give(self):
-        self.assertEqual(corpus.SIZES.read_text(encoding="utf-8"), corpus.sizes_text())
 
 
 class Rates(unittest.TestCase):
@@ -445,16 +451,16 @@ class Rates(unittest.TestCase):
         random = np.random.default_rng(1)
         sums = {"walr": (random.uniform(1, 2, 20), np.ones(20)), "plain": (random.uniform(1, 2, 20), np.ones(20))}
         of_scenes = {"a": {"1": sums}, "b": {"1": {"walr": sums["walr"]}}}
-        self.assertEqual(set(rates.figures(of_scenes)[1]["1"]), {"scenes", "walr"})
+        scenes, ratios = rates.figures(of_scenes)
+        self.assertEqual(set(ratios["1"]), {"scenes", "walr"})
+        expected = math.sqrt(sums["plain"][0].mean())
+        self.assertAlmostEqual(scenes["a"]["1"]["plain"], expected, delta=1e-3 * expected)  # Rounded to four digits.
 
     def test_noise_above_the_error_leaves_none(self):
         self.assertAlmostEqual(rates.clean_rmse({"rmse": 0.5, "reference_noise": 0.3}), 0.4)
         self.assertEqual(rates.clean_rmse({"rmse": 0.3, "reference_noise": 0.5}), 0.0)
         self.assertEqual(rates.clean_rmse({"rmse": 0.3, "reference_noise": None}), 0.3)
-        self.assertIn(" 0.0 (-) ", rate_pages.cycles_page({"s": {"1": dict.fromkeys(rate_entries.TAKE_SPARSE, 0.0)}}))
-
-    def test_the_committed_page_is_what_the_figures_give(self):
-        rate_pages.write(json.loads(rates.KEPT.read_text()), check=True)
+        self.assertIn(" 0.0 (-) ", rates_page.cycles_page({"s": {"1": dict.fromkeys(rate_entries.TAKE_SPARSE, 0.0)}}))
 
 
 if __name__ == "__main__":

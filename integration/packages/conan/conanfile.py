@@ -27,8 +27,8 @@ class Walr(ConanFile):
         for folder in ("cmake", "framegraph", "integration", "passes", "shaders"):
             copy(self, "*", self._tree / folder, pathlib.Path(self.export_sources_folder) / folder)
         # The guides and examples that are installed.
-        for pattern in ("README.md", "docs/*.md", "embedding/*.c", "embedding/*.cpp", "bench/GPU.md",
-                        "corpus/RATES.md"):
+        for pattern in ("README.md", "docs/*.md", "embedding/*.c", "embedding/*.cpp", "results/GPU.md",
+                        "results/RATES.md"):
             copy(self, pattern, self._tree / "samples", pathlib.Path(self.export_sources_folder) / "samples")
         for file in ("CMakeLists.txt", "LICENSE"):
             copy(self, file, self._tree, self.export_sources_folder)

@@ -1,71 +1,34 @@
-"""The page of a run, from its figures."""
-import json
-
-import results
+"""The page of a run of the corpus, from its figures."""
+from markdown_text import indented, mark, number, ratio_text, table, verdict, with_interval
+from records import place_name
 
 METRIC_NAMES = {"rmse": "RMSE", "ssim": "1 - SSIM", "flip": "FLIP", "flicker": "flicker"}
 SPLIT_NAMES = {"edge": "pixels to the nearest geometric edge", "noise": "noise of the input", "age": "age of the surface, frames",
                "darkness": "luminance"}
 
 
-def as_text(kept):
-    """JSON with one line per entry, place and method, so that differences between versions are readable."""
-    parts = []
-    for name, part in kept.items():
-        if isinstance(part, dict):
-            inner = ",\n".join(f"  {json.dumps(k)}: {json.dumps(v, separators=(',', ':'))}" for k, v in part.items())
-            parts.append(f" {json.dumps(name)}: {{\n{inner}\n }}" if inner else f" {json.dumps(name)}: {{}}")
-        elif name == "places":
-            inner = ",\n".join(f"  {json.dumps(v, separators=(',', ':'))}" for v in part)
-            parts.append(f" {json.dumps(name)}: [\n{inner}\n ]")
-        else:
-            parts.append(f" {json.dumps(name)}: {json.dumps(part)}")
-    return "{\n" + ",\n".join(parts) + "\n}\n"
-
-
-def table(header, rows):
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
-
-
-def small(value):
-    return "-" if value is None else f"{value:.4f}".removeprefix("0")
-
-
-def ratio_text(ratio):
-    """A ratio with its interval; bold if 1 is outside."""
-    if ratio is None:
-        return "-"
-    text = f"{ratio[0]:.3f} ({ratio[1]:.3f} to {ratio[2]:.3f})"
-    return text if results.verdict(ratio) == "undecided" else f"**{text}**"
-
-
-def mark(ratio):
-    return {"better": "&lt;", "worse": "&gt;", "undecided": "~"}[results.verdict(ratio)]
-
-
 def summary_table(kept, summary, entries):
     rows = []
     for method, figures in summary.items():
-        verdicts = [results.verdict(e["methods"][method]["ratio"]["rmse"]) for e in entries.values()]
+        verdicts = [verdict(e["methods"][method]["ratio"]["rmse"]) for e in entries.values()]
         counts = " / ".join(str(verdicts.count(v)) for v in ("better", "undecided", "worse"))
         rows.append([f"`{method}`", *(ratio_text(figures[m]) for m in METRIC_NAMES), counts])
     return table([f"method, against `{kept['baseline']}`", *METRIC_NAMES.values(), "better / undecided / worse by RMSE"], rows)
 
 
 def entries_table(kept):
-    methods = [kept["baseline"], *kept["summary"]] if kept["summary"] else [kept["baseline"], *kept["held_back_summary"]]
+    methods = [kept["baseline"], *(kept["summary"] or kept["held_back_summary"])]
     rows = []
     for name, entry in sorted(kept["entries"].items(), key=lambda item: (item[1]["size"][1], item[1]["samples"], item[0])):
         row = [f"`{name}`" + (" (held back)" if entry["held_back"] else ""), str(entry["size"][1]), str(entry["samples"]),
-               str(entry["judged"][1] - entry["judged"][0] + 1), str(entry["blocks"]), small(entry["reference_noise"])]
+               str(entry["judged"][1] - entry["judged"][0] + 1), str(entry["blocks"]), number(entry["reference_noise"])]
         for method in methods:
             figures = entry["methods"][method]
             error = figures["rmse"]
             if method == kept["baseline"]:
-                row.append("-" if error is None else f"{small(error[0])} ({small(error[1])} to {small(error[2])})")
+                row.append(with_interval(error))
             else:
-                row.append("-" if error is None else f"{small(error[0])} {mark(figures['ratio']['rmse'])}")
+                row.append("-" if error is None else f"{number(error[0])} {mark(figures['ratio']['rmse'])}")
         rows.append(row)
     return table(["sequence", "lines", "samples", "frames", "squares", "noise of reference", *(f"`{m}`" for m in methods)], rows)
 
@@ -80,10 +43,10 @@ def splits_table(kept, split):
         ahead = {}
         for entry, part in parts.items():
             for method, ratio in part["ratio"].items():
-                if results.verdict(ratio) == "better" and method not in kept_variants(kept):
+                if verdict(ratio) == "better" and method not in kept_variants(kept):
                     ahead.setdefault(method, []).append(f"`{entry}` {ratio[0]:.2f}")
         better = "; ".join(f"`{m}`: {', '.join(e)}" for m, e in ahead.items())
-        rows.append([name, f"{100 * share:.0f} %", small(sum(errors) / len(errors)) if errors else "-", better or "none"])
+        rows.append([name, f"{100 * share:.0f} %", number(sum(errors) / len(errors)) if errors else "-", better or "none"])
     baseline = kept["baseline"]
     return table([SPLIT_NAMES[split], "share of pixels", f"RMSE of `{baseline}`", f"better than `{baseline}`, ratio of RMSE"], rows)
 
@@ -103,27 +66,49 @@ def shown_places(kept, count=10):
 
 def places_table(kept):
     rows = []
-    for number, place in enumerate(shown_places(kept), 1):
+    for rank, place in enumerate(shown_places(kept), 1):
         other = place["best_other"]
-        rows.append([str(number), f"`{place['entry']}`", f"{place['frame']}: {place['x']}, {place['y']}", small(place["rmse"][kept["baseline"]]),
-                     f"`{other}` {small(place['rmse'][other])}" if other else "-",
+        rows.append([str(rank), f"`{place['entry']}`", f"{place['frame']}: {place['x']}, {place['y']}", number(place["rmse"][kept["baseline"]]),
+                     f"`{other}` {number(place['rmse'][other])}" if other else "-",
                      *(place[split] for split in SPLIT_NAMES)])
     return table(["", "sequence", "frame: x, y", f"RMSE of `{kept['baseline']}`", "best other method", "pixels to an edge", "noise", "age",
                   "luminance"], rows)
 
 
-def page(kept, figures, overview):
-    """figures, overview: names of the files with the figures and with the picture of the worst places, beside the page."""
+def lines_of(kept):
+    """The heights of a run's pictures, as text."""
+    return " and ".join(str(height) for height in sorted({e["size"][1] for e in kept["entries"].values()}))
+
+
+def command(kept):
+    """The command that makes a run's figures."""
+    methods = next(iter(kept["entries"].values()))["methods"]
+    variants = kept_variants(kept)
+    part = f"--part {kept['part']}" if kept["part"] else f"--entries {','.join(kept['entries'])}"
+    held_back = any(e["held_back"] for e in kept["entries"].values())
+    return " ".join(["samples/corpus/corpus.py run --output DIR", part, *(["--held-back"] if kept["part"] and held_back else []),
+                     f"--methods {','.join(m for m in methods if m not in variants)}", *(f"--variant {v}" for v in kept["variants"]),
+                     *(f"--{option} {kept[option]}" for option in ("judged", "seed") if kept[option])])
+
+
+def remarks_list(kept, remarks):
+    found = ((rank, remarks.get(place_name(place))) for rank, place in enumerate(shown_places(kept), 1))
+    return "".join(f"* **{rank}**, {remark}\n" for rank, remark in found if remark)
+
+
+def page(kept, figures, overview, remarks=None):
+    """figures, overview: the files with the figures and with the picture of the worst places, relative to the page. remarks: what is
+    wrong at a place, by its name."""
     entries = kept["entries"]
     open_entries = {n: e for n, e in entries.items() if not e["held_back"]}
     held = {n: e for n, e in entries.items() if e["held_back"]}
     variants = "".join(f"* `{v.split('=', 1)[0]}` is `{v.split('=', 1)[1]}`.\n" for v in kept["variants"])
-    scope = f"the {kept['part']} part" if kept["part"] else "chosen sequences"
-    parts = [f"""# Errors over the corpus
+    parts = [f"""# Errors at {lines_of(kept)} lines
 
-Written by `samples/corpus/corpus.py` from `{figures}`. [The manual](../docs/corpus.md) defines every column.
+Written by `samples/results/write.py` from `{figures}`. [The manual](../docs/corpus.md) defines every column. Measured on
+{kept['date']} at commit {kept['commit']} with
 
-Measured at commit {kept['commit']}: {scope}, seed {kept['seed']}.
+{indented(command(kept))}
 
 * A ratio below 1 is better than `{kept['baseline']}`. The interval of 95 % is in brackets. **Bold**: 1 is outside the interval.
 * RMSE and flicker are without the noise of the references. FLIP and SSIM contain it, alike for all methods.
@@ -137,6 +122,9 @@ Measured at commit {kept['commit']}: {scope}, seed {kept['seed']}.
     parts.append("\n## Where the error is\n")
     for split in SPLIT_NAMES:
         parts.append("\n" + splits_table(kept, split))
+    described = remarks_list(kept, remarks or {})
     parts.append("\n## The worst places\n\nTiles of 32 x 32 pixels in the middle judged frame of each sequence. The picture shows them in "
-                 "the order of the table, five in a column.\n\n" + places_table(kept) + f"\n![the worst places]({overview})\n")
+                 "the order of the table, five in a column.\n\n" + places_table(kept) +
+                 (f"\nWhat is wrong with `{kept['baseline']}` there:\n\n{described}" if described else "") +
+                 f"\n![the worst places]({overview})\n")
     return "".join(parts)

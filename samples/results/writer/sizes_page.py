@@ -1,7 +1,7 @@
-"""SIZES.md: errors of every method by size, scene and samples, from all records of the corpus and from rates.json."""
+"""The page of errors by size, scene and samples, from all runs of the corpus that are kept and from those by rays per pixel."""
 import entries
-import results
-from pages import mark, small, table
+from corpus_page import lines_of
+from markdown_text import filled, listed, mark, number, table, verdict
 
 BASELINE = "walr"
 METHODS = [m for m in entries.METHODS if m != BASELINE]
@@ -9,11 +9,9 @@ LEAST_LEAD = 0.02
 """A method is listed as ahead of the baseline if its error is smaller by more than this share."""
 EXPLANATION = """# Errors by size, scene and samples
 
-Written by `samples/corpus/corpus.py page` from the figures of [360](RESULTS.md), [540](RESULTS_540.md) and [1080](RESULTS_1080.md) lines
-and of [216 lines](RATES.md), which say how they were measured.
-
-All frames are jittered and rendered by `walr render`, those of `sponza` and `cornell_fence`, too. The README's sequences of these
-names are from Blender Cycles.
+Written by `samples/results/write.py` from the figures of {heights} lines. [How they were measured](README.md#what-was-measured).
+All frames are jittered and rendered by `walr render`, those of `sponza` and `cornell_fence`, too: [the page of Cycles](CYCLES.md)
+has other sequences of these names.
 
 * **Lines**: height of the picture in pixels. **Samples**: samples per pixel.
 * **`walr`**: RMSE of the default preset, in units of the tone-mapped value x / (1 + x), 0 to 1, free of the references' noise.
@@ -26,7 +24,7 @@ names are from Blender Cycles.
 def cells_of(entry):
     """The cells of a sequence of the corpus: RMSE of the baseline, and ratios of the others."""
     methods = entry["methods"]
-    cells = [small(methods[BASELINE]["rmse"][0])]
+    cells = [number(methods[BASELINE]["rmse"][0])]
     for method in METHODS:
         ratio = methods.get(method, {}).get("ratio", {}).get("rmse")
         cells.append(f"{ratio[0]:.2f} {mark(ratio)}" if ratio else "-")
@@ -49,9 +47,9 @@ def rate_rows(rates, lines):
         for rate, methods in by_rate.items():
             if not rate.isdigit():
                 continue
-            baseline = methods[BASELINE][0]
-            cells = [f"{methods[m][0] / baseline:.2f}" if methods.get(m) else "-" for m in METHODS]
-            rows.append(((lines, scene, int(rate), f"`{scene}`"), [small(baseline), *cells]))
+            baseline = methods[BASELINE]
+            cells = [f"{methods[m] / baseline:.2f}" if methods.get(m) else "-" for m in METHODS]
+            rows.append(((lines, scene, int(rate), f"`{scene}`"), [number(baseline), *cells]))
     return rows
 
 
@@ -61,23 +59,13 @@ def errors_table(records, rates, lines):
                  [[str(height), shown, str(samples), *cells] for (height, _, samples, shown), cells in rows])
 
 
-def commits_table(records, rates, lines):
-    """The commit that each size was measured at, and what that means for comparisons."""
-    rows = [(lines, rates["commit"])]
-    rows += [(next(iter(kept["entries"].values()))["size"][1], kept["commit"]) for kept in records]
-    text = table(["lines", "measured at commit"], [[str(height), commit] for height, commit in sorted(rows)])
-    if len({commit for _, commit in rows}) > 1:
-        text += "\nThe defaults of the methods may differ from commit to commit, so compare rows of one size only.\n"
-    return text
-
-
 def behind_table(records):
     """Where a method is ahead of the baseline beyond the interval and by more than LEAST_LEAD."""
     rows = []
     for kept in records:
         for name, entry in kept["entries"].items():
             ahead = {m: entry["methods"][m]["ratio"]["rmse"] for m in METHODS if m in entry["methods"]}
-            ahead = {m: r for m, r in ahead.items() if results.verdict(r) == "better" and r[0] < 1 - LEAST_LEAD}
+            ahead = {m: r for m, r in ahead.items() if verdict(r) == "better" and r[0] < 1 - LEAST_LEAD}
             if ahead:
                 rows.append([f"`{name}`", ", ".join(f"`{m}` by {100 * (1 - r[0]):.0f} %" for m, r in sorted(ahead.items()))])
     return table(["sequence", f"methods ahead of `{BASELINE}`"], rows) if rows else "There are none.\n"
@@ -92,24 +80,23 @@ def gains_table(records):
     """Gains of the baseline over each other method on the sequences held back, against those on the others."""
     rows = []
     for kept in records:
-        lines = "/".join(sorted({str(e["size"][1]) for e in kept["entries"].values()}))
         for method in (m for m in METHODS if not m.startswith(BASELINE + ":")):
             open_ratio, held = (kept[part].get(method, {}).get("rmse") for part in ("summary", "held_back_summary"))
             if open_ratio and held:
                 of_open, of_held = gain(open_ratio[0]), gain(held[0])
-                rows.append([lines, f"`{method}`", f"{100 * of_open:.1f} %", f"{100 * of_held:.1f} %",
+                rows.append([lines_of(kept), f"`{method}`", f"{100 * of_open:.1f} %", f"{100 * of_held:.1f} %",
                              f"{of_held / of_open:.2f}" if of_open else "-"])
     return table(["lines", "method", f"`{BASELINE}` errs less by, other sequences", "held back", "ratio"], rows)
 
 
 def page(records, rates, lines):
     """records: figures of all records of the corpus; lines: height of the pictures of rates.json."""
-    return (EXPLANATION + commits_table(records, rates, lines) + "\n" + errors_table(records, rates, lines) +
-            "\n## Where `walr` is behind\n\nMethods whose RMSE is smaller than that of `walr` beyond the interval, and by more than "
-            f"{100 * LEAST_LEAD:.0f} %. Sequences of {lines} lines have no intervals and are left out. [PLACES.md](PLACES.md) describes "
-            "the places of largest error.\n\n" + behind_table(records) +
-            "\n## Sequences held back\n\nNo setting was chosen by those of 1080 lines. Those of 540 lines were in the table by "
-            "which growth, the coarse window and antilag were last chosen. "
-            "The ratio is the gain of `walr` on them over its gain "
-            "on the others; from 1 on, the whole gain holds elsewhere, too. Small gains are uncertain: the pages above give their "
-            "intervals.\n\n" + gains_table(records))
+    heights = listed(map(str, [lines, *map(lines_of, records)]))
+    return (EXPLANATION.format(heights=heights) + errors_table(records, rates, lines) +
+            "\n## Where `walr` is behind\n\n" + filled(
+                "Methods whose RMSE is smaller than that of `walr` beyond the interval, and by more than "
+                f"{100 * LEAST_LEAD:.0f} %. Sequences of {lines} lines have no intervals and are left out.") + "\n" + behind_table(records) +
+            "\n## Sequences held back\n\n" + filled(
+                "No setting was chosen by them. The ratio is the gain of `walr` on them over its gain on the others; from 1 on, the "
+                "whole gain holds elsewhere, too. Small gains are uncertain: the pages of the sizes give their intervals.") +
+            "\n" + gains_table(records))

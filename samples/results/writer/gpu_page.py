@@ -1,14 +1,10 @@
-"""The page of times measured on GPUs, for update_results.py: GPU.md from what `walr gpu-report` wrote."""
+"""The page of times measured on a GPU, from what `walr gpu-report` wrote."""
+from markdown_text import number, over, table
 
 PAGE_SIZES = ((1920, 1080), (2560, 1440), (3840, 2160))
 CONTENT = "scene"  # Paths traced, one a pixel; the report also has a synthetic content.
-# What a reader should know of a GPU, by its name.
-REMARKS = {"NVIDIA H100 80GB HBM3": """
-This is a GPU for servers: 132 multiprocessors of 128 lanes, and 50 MB of cache, which holds three textures of 8 bytes a texel at
-1920 x 1080. For GPUs with fewer multiprocessors, the largest size tells more: it gives every multiprocessor enough to do. The
-passes over blocks of `walr` have 32,640 threads at the smallest size, an eighth of what this GPU holds at a time: they wait
-for latency.
-"""}
+PASSES_OF = ("walr", "flr")
+"""Methods whose passes the page lists."""
 
 
 def spread(entry, decimals=4):
@@ -46,24 +42,33 @@ def keep_gpu(data):
             passes = [{"name": p["name"], "ms": round(p["milliseconds"]["median"], 4), "mb": round(p["bytes"] / 1e6, 1),
                        "us": [largest(p[k]) and round(largest(p[k]), 1) for k in ("estimate", "attainable_estimate")]}
                       for p in method["passes"]]
-            entry["sizes"][size] = {"ms": spread(method["milliseconds"]), "us": method["estimated_microseconds"], "passes": passes}
+            estimate = method["estimated_microseconds"]
+            entry["sizes"][size] = {"ms": spread(method["milliseconds"]), "us": estimate and round(estimate, 2),
+                                    "mb": round(sum(p["mb"] for p in passes), 1)}
+            if method["variant"] in PASSES_OF:
+                entry["sizes"][size]["passes"] = passes
     for result in data["results"]["agreements"]:
         agreement = [result["sequence"], result["rmse"], result["reference_rmse"], result["rms_difference"], result["suspicious"]]
         kept["methods"][result["variant"]]["agreement"].append(agreement)
     return kept
 
 
-def milliseconds(kept, method, size):
+def milliseconds(kept, method, size="{} x {}".format(*PAGE_SIZES[0])):
     """Median time of a method's frame at a size; None if it was not measured."""
     times = kept["methods"].get(method, {"sizes": {}})["sizes"].get(size, {})
     return times["ms"][0] if "ms" in times else None
 
 
-def over(numerator, denominator, decimals=2):
-    return f"{numerator / denominator:.{decimals}f}" if numerator and denominator else "-"
+def gpu_time(kept, name):
+    """Time of a frame of 1920 x 1080, in milliseconds, as text."""
+    return number(milliseconds(kept, name), 2)
 
 
-def times_table(kept, table):
+def gpu_term(kept):
+    return f"""* **GPU time**: milliseconds of a frame of 1920 x 1080 on an {kept['device']}, by GPU timestamps, median."""
+
+
+def times_table(kept):
     sizes = [f"{w} x {h}" for w, h in PAGE_SIZES]
     rows = []
     for name, method in kept["methods"].items():
@@ -74,8 +79,7 @@ def times_table(kept, table):
         first = method["sizes"][sizes[0]]
         walr = milliseconds(kept, "walr", sizes[0])
         if "ms" in first:
-            megabytes = sum(p["mb"] for p in first["passes"])
-            row += [over(first["ms"][0], walr), over(megabytes, first["ms"][0], 0), over(1e3 * first["ms"][0], first["us"])]
+            row += [over(first["ms"][0], walr), over(first["mb"], first["ms"][0], 0), over(1e3 * first["ms"][0], first["us"])]
         else:
             row += ["-"] * 3
         rows.append(row)
@@ -88,7 +92,7 @@ def refusals(kept):
                    for name, method in kept["methods"].items() for size, times in method["sizes"].items() if "why_not" in times)
 
 
-def passes_table(kept, method, table):
+def passes_table(kept, method):
     sizes = [f"{w} x {h}" for w, h in PAGE_SIZES]
     named = {}
     for size in sizes:
@@ -107,7 +111,7 @@ def passes_table(kept, method, table):
     return table(["pass", *(f"{s}, us" for s in sizes), "plan's MB", "plan's GB/s", "measured over estimate"], rows)
 
 
-def probes_table(kept, table):
+def probes_table(kept):
     def shown(value):
         return "-" if value is None else f"{value:,}"
 
@@ -116,56 +120,50 @@ def probes_table(kept, table):
     return table(["probe", "ms", "GB/s", "billion fetches/s", "ns a fetch", "what it does"], rows)
 
 
-def agreement_table(kept, table):
+def agreement_table(kept):
     rows = [[f"`{name}`", sequence, f"{rmse:.5f}", f"{reference:.5f}", f"{difference:.6f}", over(100 * difference, rmse, 1),
              "yes" if differs else ""]
             for name, method in kept["methods"].items() for sequence, rmse, reference, difference, differs in method["agreement"]]
     return table(["method", "sequence", "RMSE", "RMSE on the processor", "RMS difference", "% of RMSE", "differs"], rows)
 
 
-def gpu_page(kept, table):
-    """`table` makes a table of a header and rows."""
+def page(kept):
     rates = sorted({f"{core:.0f} and {memory:.0f}" for _, core, memory in kept["clocks"]})
     clocks = f"{'; '.join(rates)} in {len(kept['clocks'])} readings before, between and after the measurements"
     messages = "no message" if kept["messages"] == 0 else f"{kept['messages']} messages"
+    passes = "".join(f"## Passes of `{method}`\n\n{passes_table(kept, method)}\n" for method in PASSES_OF)
     return f"""# Times on a GPU
 
-Written by `samples/bench/update_results.py` from `results.json`. Measured with [`walr gpu-report`](../docs/gpu-report.md) on
+Written by `samples/results/write.py` from `data/gpu.json`. Measured with [`walr gpu-report`](../docs/gpu-report.md) on
 {kept['device']}, driver {kept['driver']}; commit {kept['commit']} ({kept['compiler']}):
 
     {kept['command']}
 
 Clock rates of core and memory in MHz, by nvidia-smi: {clocks}.
 All {kept['validated']} methods and presets ran under the Khronos validation layer with synchronization validation: {messages}.
-{REMARKS.get(kept['device'], "")}
+
 ## Methods
 
 Frames: {kept['content']}. Median, and in brackets the 5 % and 95 % quantile.
 
-{times_table(kept, table)}
+{times_table(kept)}
 * **Over `walr`**, **plan's GB/s** and **measured over estimate** are those at the first size.
 * **Plan's GB/s**: bytes of the plan, each texel once a pass, over the measured time.
 * **Estimate**: that of the static model (see `tests/costs/README.md`), at peak rates; {kept['model']}.
 {refusals(kept)}
 What was tried to make `walr` faster here, and what it gained: [what we learnt](../../passes/LEARNT.md#speed-and-checks-on-gpus).
 
-## Passes of `walr`
+{passes}The estimates of passes are those at measured rates of memory and fetches.
 
-{passes_table(kept, "walr", table)}
-The estimates are those at measured rates of memory and fetches.
-
-## Passes of `flr`
-
-{passes_table(kept, "flr", table)}
 ## Memory and texture units
 
 A buffer and a texture of 256 MiB.
 
-{probes_table(kept, table)}
+{probes_table(kept)}
 ## Results
 
 The last frame of short sequences of 192 x 108 pixels, after the tone map x / (1 + x), against the known truth and against the same frame
 from a processor, computed by Mesa's lavapipe. A method **differs** if the RMS difference is more than a tenth of its own RMSE, or if a
 value is not finite.
 
-{agreement_table(kept, table)}"""
+{agreement_table(kept)}"""
