@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "passes/conventions/light_direction.h"
 #include "passes/guides/shared_guides.h"
@@ -78,106 +79,145 @@ void checkOrthographic(const InputConventions& conventions, const HostConvention
 
 namespace {
 
-/// A texture of the host that receives a result.
-fg::Texture importResult(fg::Graph& graph, std::string_view name, VkFormat format, fg::Extent extent,
-                         const HostStates& states) {
-  return graph.import(std::string(name), {.format = format, .extent = extent}, states.outputBefore);
-}
-
-SecondLight importSecond(fg::Graph& graph, const DenoiserInputs& first, fg::Texture firstOutput,
-                         const HostStates& states, const SecondMethod& wanted) {
-  const fg::TextureDesc result = graph.textureDesc(firstOutput);
-  SecondLight second;
-  second.lighting = graph.import(std::string(kSecondLightingName), graph.textureDesc(first.lighting), states.inputs);
-  if (first.confidence.valid()) {
-    second.confidence =
-        graph.import(std::string(kSecondConfidenceName), graph.textureDesc(first.confidence), states.inputs);
-  }
-  second.output = importResult(graph, kSecondOutputName, result.format, result.extent, states);
-  if (wanted.historyLength) {
-    second.historyLength = importResult(graph, kSecondHistoryLengthName, kHistoryLengthFormat, result.extent, states);
-  }
-  if (wanted.lightDirection) {
-    second.lightDirection =
-        importResult(graph, kSecondLightDirectionName, kLightDirectionFormat, result.extent, states);
-  }
-  return second;
-}
-
-/// What `addLight` works on beside the light.
-struct LightTarget {
-  fg::Texture output;
-  fg::Texture historyLength;   ///< Invalid unless requested.
-  fg::Texture lightDirection;  ///< Invalid unless requested.
+/// What all lights of a graph have in common.
+struct Declaring {
+  const HostStates& states;
+  const HostConventions& host;
+  const InspectionWish& wanted;
 };
 
+/// A texture of the host that receives a result.
+fg::Texture importResult(fg::Graph& graph, const std::string& name, VkFormat format, fg::Extent extent,
+                         const HostStates& states) {
+  return graph.import(name, {.format = format, .extent = extent}, states.outputBefore);
+}
+
+/// Import the textures of the host that receive the results of a light.
+void importResults(fg::Graph& graph, LightImages& light, const LightNames& names, fg::Extent extent,
+                   const Declaring& all) {
+  const auto import = [&](std::string_view name, VkFormat format) {
+    return importResult(graph, std::string(names.images).append(name), format, extent, all.states);
+  };
+  light.output = import(kOutputName, all.host.result);
+  if (all.wanted.historyLength) light.historyLength = import(kHistoryLengthName, kHistoryLengthFormat);
+  if (all.wanted.lightDirection) light.lightDirection = import(kLightDirectionName, kLightDirectionFormat);
+}
+
+/// The images of a light after the first, which have the formats of the first one's.
+LightImages importLight(fg::Graph& graph, const LightImages& first, const LightNames& names, fg::Extent extent,
+                        const Declaring& all) {
+  const auto import = [&](std::string_view name, fg::Texture alike) {
+    return graph.import(std::string(names.images).append(name), graph.textureDesc(alike), all.states.inputs);
+  };
+  LightImages light;
+  light.lighting = import(kLightingName, first.lighting);
+  if (first.confidence.valid()) light.confidence = import(kConfidenceName, first.confidence);
+  importResults(graph, light, names, extent, all);
+  return light;
+}
+
 /// Add the passes of a light from its converted inputs to the host's results.
-void addLight(DenoiseGraph& declared, Denoiser& method, const DenoiserInputs& inputs, const LightTarget& to,
-              Inspection& inspection, const SharedLight& light, const HostStates& states, const HostConventions& host) {
+void addLight(DenoiseGraph& declared, Denoiser& method, const DenoiserInputs& inputs, const LightImages& to,
+              Inspection& inspection, const SharedLight& light, const Declaring& all) {
   fg::Graph& graph = declared.graph;
   const fg::TextureDesc result{.format = kOutputFormat, .extent = graph.textureDesc(to.output).extent};
   const StageGraph stages(graph, inspection, light);
-  const fg::Texture target = host.convertsResult() ? stages.texture("result to convert", result) : to.output;
+  const fg::Texture target = all.host.convertsResult() ? stages.texture("result to convert", result) : to.output;
   if (to.historyLength.valid()) inspection.wantHistoryLength(to.historyLength);
   if (to.lightDirection.valid()) inspection.wantLightDirection(to.lightDirection);
   fg::Texture denoised = method.add(stages, inputs, target);
-  if (to.historyLength.valid()) graph.exported(inspection.historyLength(), states.outputAfter);
-  if (to.lightDirection.valid()) graph.exported(inspection.lightDirection(), states.outputAfter);
-  if (host.convertsResult()) denoised = addConvertResult(stages, denoised, to.output, declared.host);
-  graph.exported(denoised, states.outputAfter);
+  if (to.historyLength.valid()) graph.exported(inspection.historyLength(), all.states.outputAfter);
+  if (to.lightDirection.valid()) graph.exported(inspection.lightDirection(), all.states.outputAfter);
+  if (all.host.convertsResult()) denoised = addConvertResult(stages, denoised, to.output, declared.host);
+  graph.exported(denoised, all.states.outputAfter);
+}
+
+/// Import what receives the views of a light.
+/// @param lights how many there are
+void wantViews(fg::Graph& graph, Inspection& inspection, std::size_t light, std::size_t lights, fg::Extent extent,
+               const Declaring& all) {
+  for (const std::string& view : all.wanted.views) {
+    const OwnName own = withoutLight(view, lights);
+    if (own.light.value_or(0) != light) continue;
+    inspection.want(std::string(own.name), importResult(graph, "view of " + view, kViewFormat, extent, all.states));
+  }
+}
+
+/// Export the views of a light.
+void keepViews(DenoiseGraph& declared, const Inspection& inspection, const LightNames& names, const Declaring& all) {
+  for (DebugView view : inspection.views()) {
+    declared.graph.exported(view.texture, all.states.outputAfter);
+    view.name.insert(0, names.settings);
+    declared.views.push_back(std::move(view));
+  }
+}
+
+/// Import what receives counters and the linter's counts, and add the linter's passes.
+void declareCounts(DenoiseGraph& declared, const DenoiserInputs& inputs, const Declaring& all) {
+  fg::Graph& graph = declared.graph;
+  if (all.wanted.counters) {
+    declared.inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, all.states.outputBefore));
+  }
+  if (all.wanted.lint) {
+    const fg::Buffer counts = graph.import("lint counters", fg::BufferDesc{kCounterBytes}, all.states.outputBefore);
+    declared.lint = addLintInputs(graph, inputs, counts);
+    graph.exported(declared.lint, all.states.outputAfter);
+  }
 }
 
 }  // namespace
 
-DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
-                                 const HostStates& states, std::span<const VkFormat> formats,
-                                 const HostConventions& host, const InspectionWish& wanted,
-                                 const SecondMethod& second) {
+DenoiseGraph declareDenoiseGraph(std::span<Denoiser* const> methods, fg::Extent extent,
+                                 const InputConventions& conventions, const HostStates& states,
+                                 std::span<const VkFormat> formats, const HostConventions& host,
+                                 const InspectionWish& wanted) {
+  if (methods.empty() || methods.size() > kMostLights) {
+    throw std::invalid_argument("a graph of " + std::to_string(methods.size()) + " lights: it takes 1 to " +
+                                std::to_string(kMostLights));
+  }
   checkOrthographic(conventions, host, wanted.lint);
+  const Declaring all{states, host, wanted};
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;
   declared.inputs = importInputs(graph, extent, conventions, states.inputs, formats, host);
   if (host.differs()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
-  declared.output = importResult(graph, kOutputName, host.result, extent, states);
+  LightImages& first = declared.lights.emplace_back();
+  first.lighting = declared.inputs.lighting;
+  first.confidence = declared.inputs.confidence;
+  importResults(graph, first, kLightNames.front(), extent, all);
   const DenoiserInputs inputs = addConvertInputs(graph, declared.inputs, host, declared.host);
-
-  Inspection& inspection = declared.inspection;
-  for (const std::string& view : wanted.views) {
-    inspection.want(view, importResult(graph, "view of " + view, kViewFormat, extent, states));
-  }
-  if (wanted.historyLength) {
-    declared.historyLength = importResult(graph, kHistoryLengthName, kHistoryLengthFormat, extent, states);
-  }
-  if (wanted.lightDirection) {
-    declared.lightDirection = importResult(graph, kLightDirectionName, kLightDirectionFormat, extent, states);
-  }
-  if (wanted.counters) {
-    inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, states.outputBefore));
-  }
-  if (wanted.lint) {
-    const fg::Buffer counts = graph.import("lint counters", fg::BufferDesc{kCounterBytes}, states.outputBefore);
-    declared.lint = addLintInputs(graph, inputs, counts);
-    graph.exported(declared.lint, states.outputAfter);
-  }
+  wantViews(graph, declared.inspection, 0, methods.size(), extent, all);
+  declareCounts(declared, inputs, all);
 
   SharedGuides guides;
-  addLight(declared, method, inputs, {declared.output, declared.historyLength, declared.lightDirection}, inspection,
-           {.guides = second.method != nullptr ? &guides : nullptr}, states, host);
-  for (const DebugView& view : inspection.views()) graph.exported(view.texture, states.outputAfter);
-  if (!inspection.counters().empty()) graph.exported(inspection.counterBuffer(), states.outputAfter);
-  if (second.method == nullptr) return declared;
-
-  declared.second = importSecond(graph, declared.inputs, declared.output, states, second);
-  Inspection secondInspection;
-  const SharedLight light{.guides = &guides, .prefix = kSecondPrefix};
-  DenoiserInputs secondInputs = inputs;
-  secondInputs.lighting = declared.second.lighting;
-  secondInputs.confidence = declared.second.confidence;
-  secondInputs = addConvertLight({graph, secondInspection, light}, secondInputs, host, declared.host);
-  addLight(declared, *second.method, secondInputs,
-           {declared.second.output, declared.second.historyLength, declared.second.lightDirection}, secondInspection,
-           light, states, host);
+  SharedLight shared{.guides = methods.size() > 1 ? &guides : nullptr};
+  addLight(declared, *methods.front(), inputs, first, declared.inspection, shared, all);
+  keepViews(declared, declared.inspection, kLightNames.front(), all);
+  if (!declared.inspection.counters().empty()) {
+    graph.exported(declared.inspection.counterBuffer(), states.outputAfter);
+  }
+  for (std::size_t i = 1; i < methods.size(); ++i) {
+    const LightNames& names = kLightNames.at(i);
+    const LightImages light = importLight(graph, declared.lights.front(), names, extent, all);
+    shared.prefix = names.passes;
+    Inspection inspection;
+    wantViews(graph, inspection, i, methods.size(), extent, all);
+    DenoiserInputs own = inputs;
+    own.lighting = light.lighting;
+    own.confidence = light.confidence;
+    own = addConvertLight({graph, inspection, shared}, own, host, declared.host);
+    addLight(declared, *methods[i], own, light, inspection, shared, all);
+    keepViews(declared, inspection, names, all);
+    declared.lights.push_back(light);
+  }
   return declared;
+}
+
+DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
+                                 const HostStates& states, std::span<const VkFormat> formats,
+                                 const HostConventions& host, const InspectionWish& wanted) {
+  Denoiser* const methods[] = {&method};
+  return declareDenoiseGraph(methods, extent, conventions, states, formats, host, wanted);
 }
 
 }  // namespace walr

@@ -2,54 +2,36 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "framegraph/declare/graph.h"
 #include "integration/host_inputs.h"
+#include "integration/lights.h"
 #include "passes/guides/convert_inputs.h"
 #include "passes/methods/denoiser.h"
 #include "passes/stage/inspection.h"
 
 namespace walr {
 
-/// Imports of the second of two lights. They correspond to those of the first.
-struct SecondLight {
-  fg::Texture lighting;
-  fg::Texture confidence;  ///< Invalid if the host has none.
-  fg::Texture output;
-  fg::Texture historyLength;   ///< Invalid unless requested.
-  fg::Texture lightDirection;  ///< Invalid unless requested.
-};
-
-/// What the names of the second light's passes and textures begin with.
-inline constexpr std::string_view kSecondPrefix = "second light: ";
-
-/// A graph that denoises one light, or two that share their guides, and nothing else. The host owns its textures.
+/// A graph that denoises one light, or several that share their guides, and nothing else. The host owns its textures.
 struct DenoiseGraph {
   fg::Graph graph;
-  DenoiserInputs inputs;       ///< Imports with the host's conventions; `frame` is an upload.
-  fg::Buffer host;             ///< Upload of `HostConstants`; invalid if no input is converted.
-  fg::Texture output;          ///< Import that receives the result.
-  Inspection inspection;       ///< The requested views and counters, in imports that receive them.
-  fg::Texture historyLength;   ///< Import that receives history lengths; invalid unless requested.
-  fg::Texture lightDirection;  ///< Import that receives slopes of the light over the normal; invalid unless requested.
-  fg::Buffer lint;             ///< Import that receives the counts of `addLintInputs`; invalid unless requested.
-  SecondLight second;          ///< All invalid if there is one light.
+  DenoiserInputs inputs;            ///< Imports with the host's conventions, of the first light; `frame` is an upload.
+  fg::Buffer host;                  ///< Upload of `HostConstants`; invalid if no input is converted.
+  std::vector<LightImages> lights;  ///< In the order of the methods; at least one.
+  std::vector<DebugView> views;     ///< The requested ones of all lights, in imports that receive them.
+  Inspection inspection;            ///< Of the first light: its counters, and what it knows.
+  fg::Buffer lint;                  ///< Import that receives the counts of `addLintInputs`; invalid unless requested.
 };
 
-/// Further outputs of a graph; views, counters and lint are for debugging. Of two lights, all are those of the first.
+/// Further outputs of a graph; views, counters and lint are for debugging. Counters and lint are those of the first
+/// light.
 struct InspectionWish {
-  std::span<const std::string> views = {};  ///< Names of views.
+  std::span<const std::string> views = {};  ///< Names; those of another light begin with its `LightNames::settings`.
   bool counters = false;
-  bool historyLength = false;   ///< Of every pixel, in `kHistoryLengthFormat`.
-  bool lightDirection = false;  ///< Of every pixel, in `kLightDirectionFormat`; of the method walr.
+  bool historyLength = false;   ///< Of every pixel and light, in `kHistoryLengthFormat`.
+  bool lightDirection = false;  ///< Of every pixel and light, in `kLightDirectionFormat`; of the method walr.
   bool lint = false;            ///< Count likely faults in the inputs: see `InputLinter`.
-};
-
-/// The second of two lights of a view, which share their guides.
-struct SecondMethod {
-  Denoiser* method = nullptr;   ///< With its own settings; null if there is one light.
-  bool historyLength = false;   ///< As `InspectionWish::historyLength`.
-  bool lightDirection = false;  ///< As `InspectionWish::lightDirection`.
 };
 
 /// States of the host's textures before the graph, and of the result before and after it.
@@ -76,17 +58,21 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
 /// @throws std::invalid_argument naming what an orthographic camera does not allow
 void checkOrthographic(const InputConventions& conventions, const HostConventions& host, bool lint);
 
-/// Declare a method between the host's textures.
+/// Declare methods between the host's textures, one a light. The guides are prepared once. All else is each light's
+/// own, and its names begin with those of `kLightNames`. All lights have textures of the same formats.
+/// @param methods 1 to `kMostLights`, with their own settings
 /// @param formats see `importInputs`
 /// @param host    conventions of the textures; what differs from `DenoiserInputs` is converted first
 /// @param wanted  further outputs, in imports with the states of the result
-/// @param second  of two lights. The guides are prepared once. All else is the second light's own, and its names begin
-///                with `kSecondPrefix`. Its textures have the formats of the first one's
-/// @throws std::invalid_argument naming a setting of the method that is out of range, an input whose format cannot be
+/// @throws std::invalid_argument naming a setting of a method that is out of range, an input whose format cannot be
 ///         used, or an unknown view, or saying why the lights cannot share guides
+DenoiseGraph declareDenoiseGraph(std::span<Denoiser* const> methods, fg::Extent extent,
+                                 const InputConventions& conventions, const HostStates& states,
+                                 std::span<const VkFormat> formats = {}, const HostConventions& host = {},
+                                 const InspectionWish& wanted = {});
+/// The same of one light.
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats = {},
-                                 const HostConventions& host = {}, const InspectionWish& wanted = {},
-                                 const SecondMethod& second = {});
+                                 const HostConventions& host = {}, const InspectionWish& wanted = {});
 
 }  // namespace walr

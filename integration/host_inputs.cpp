@@ -35,7 +35,7 @@ std::uint32_t integerChannels(const fg::FormatInfo& format) {
 }  // namespace
 
 const std::array<HostInput, 7> kHostInputs{{
-    {"lighting", &DenoiserInputs::lighting, kColour, 3,
+    {kLightingName, &DenoiserInputs::lighting, kColour, 3,
      "Noisy diffuse indirect radiance without the first hit's albedo, linear, 1 sample per pixel"},
     {"depth", &DenoiserInputs::depth, VK_FORMAT_R32_SFLOAT, 1,
      "Linear view depth (-z of view space) in scene units; sky at or beyond the frame's sky depth"},
@@ -46,7 +46,7 @@ const std::array<HostInput, 7> kHostInputs{{
      "Diffuse albedo of the first hit; pixels without any are passed through"},
     {"object_id", &DenoiserInputs::objectId, VK_FORMAT_R32_UINT, 1,
      "Number of the object that the pixel shows, the same from frame to frame; 0xffffffff: none", true},
-    {"confidence", &DenoiserInputs::confidence, VK_FORMAT_R8_UNORM, 1,
+    {kConfidenceName, &DenoiserInputs::confidence, VK_FORMAT_R8_UNORM, 1,
      "How much of its history a pixel may use: 0 is none, 1 all of it", true},
 }};
 

@@ -25,19 +25,15 @@ extern const std::array<HostInput, 7> kHostInputs;
 /// The input with a name; null if there is none.
 const HostInput* hostInputNamed(std::string_view name);
 
-/// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, of the result's texture,
-/// of that with history lengths, and of that with light directions.
+/// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, and of the first light's
+/// textures; those of another light have `LightNames::images` before them.
 inline constexpr std::string_view kFrameName = "frame";
 inline constexpr std::string_view kHostName = "host";
+inline constexpr std::string_view kLightingName = "lighting";
+inline constexpr std::string_view kConfidenceName = "confidence";
 inline constexpr std::string_view kOutputName = "denoised";
 inline constexpr std::string_view kHistoryLengthName = "history_length";
 inline constexpr std::string_view kLightDirectionName = "light_direction";
-/// The same of the second of two lights, and of its lighting and confidence.
-inline constexpr std::string_view kSecondLightingName = "second_lighting";
-inline constexpr std::string_view kSecondConfidenceName = "second_confidence";
-inline constexpr std::string_view kSecondOutputName = "second_denoised";
-inline constexpr std::string_view kSecondHistoryLengthName = "second_history_length";
-inline constexpr std::string_view kSecondLightDirectionName = "second_light_direction";
 inline constexpr VkFormat kOutputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// Check that a host's texture can be used as an input.

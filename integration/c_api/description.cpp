@@ -1,6 +1,7 @@
 #include "integration/c_api/description.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -90,31 +91,47 @@ std::unique_ptr<PassNode> stageNamed(std::string_view name) {
   return found != passTypes().end() && found->composition ? nullptr : makePass(name);
 }
 
-/// The method of the second light; null if there is one light.
-/// @param first the method of the first light; null for a stage
-std::unique_ptr<Denoiser> secondMethod(const WalrDenoiserInfo& info, const std::string& name, const Denoiser* first) {
-  if (info.light_count > 2) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::light_count is " + std::to_string(info.light_count) +
-                                                 ": lights share guides two at a time; make a further denoiser, see "
+/// Where a host says the preset of each light; that of the first counts for all that have none.
+constexpr std::array<const char * WalrDenoiserInfo::*, kMostLights> kPresets{&WalrDenoiserInfo::preset,
+                                                                             &WalrDenoiserInfo::second_preset};
+
+/// @throws Error saying why there cannot be as many lights
+std::size_t checkedLightCount(const WalrDenoiserInfo& info) {
+  const std::size_t count = std::max<std::size_t>(info.light_count, 1);
+  if (count > kMostLights) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::light_count is " + std::to_string(count) +
+                                                 ": lights share guides " + std::to_string(kMostLights) +
+                                                 " at a time; make a further denoiser, see "
                                                  "WalrDenoiserInfo::shared_with");
   }
-  if (info.light_count < 2) {
-    if (info.second_preset == nullptr) return nullptr;
+  for (std::size_t i = count; i < kMostLights; ++i) {
+    if (info.*kPresets.at(i) == nullptr) continue;
     throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                "WalrDenoiserInfo::second_preset is given, but there is one light: set light_count to 2");
+                "WalrDenoiserInfo::second_preset is given, but there is one light: set "
+                "light_count to " +
+                    std::to_string(i + 1));
   }
-  if (first == nullptr) {
+  return count;
+}
+
+/// A method for each light; none for a stage.
+std::vector<std::unique_ptr<Denoiser>> makeMethods(const WalrDenoiserInfo& info, const std::string& name, bool stage) {
+  const std::size_t count = checkedLightCount(info);
+  if (stage && count == 1) return {};
+  if (stage) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + name +
                                                  "' has one light: set WalrDenoiserInfo::light_count "
                                                  "for a whole method");
   }
-  if (!first->sharesGuides()) {
+  std::vector<std::unique_ptr<Denoiser>> methods;
+  for (std::size_t i = 0; i < count; ++i) methods.push_back(makeDenoiser(name));
+  if (count > 1 && !methods.front()->sharesGuides()) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT,
                 "method '" + name +
                     "' has no guides that lights could share: leave "
                     "WalrDenoiserInfo::light_count at 1 and make a denoiser for each light");
   }
-  return makeDenoiser(name);
+  return methods;
 }
 
 VkFormat formatOr(VkFormat format, std::size_t input) {
@@ -139,8 +156,7 @@ const WalrCamera& checkedCamera(const WalrCamera& camera) {
 Description::Description(const WalrDenoiserInfo& info, Of of)
     : methodName_(info.method == nullptr ? "walr" : info.method),
       stage_(of == Of::MethodsAndStages ? stageNamed(methodName_) : nullptr),
-      method_(stage_ != nullptr ? nullptr : makeDenoiser(methodName_)),
-      second_(secondMethod(info, methodName_, method_.get())),
+      methods_(makeMethods(info, methodName_, stage_ != nullptr)),
       extent_(checkedExtent(info.width, info.height)),
       conventions_(checkedConventions(info.conventions)),
       formats_{formatOr(info.lighting_format, 0),  formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
@@ -152,7 +168,9 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
       slots_(checkedSlots(info.frames_in_flight)) {
   checkSwitches(info);
   if (info.preset != nullptr) usePreset(info.preset);
-  if (info.second_preset != nullptr) second_->usePreset(info.second_preset);
+  for (std::size_t i = 1; i < methods_.size(); ++i) {
+    if (const char* own = info.*kPresets.at(i); own != nullptr) methods_[i]->usePreset(own);
+  }
   checkOrthographic(inputConventions(), hostConventions(), info.lint == VK_TRUE);
   // Refuse wrong formats here and not when the first frame is recorded.
   fg::Graph scratch;
@@ -167,9 +185,9 @@ DenoiseGraph Description::declare(const InspectionWish& wanted) const {
   InspectionWish all = wanted;
   all.historyLength = historyLength_;
   all.lightDirection = lightDirection_;
-  return declareDenoiseGraph(
-      *method_, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all,
-      {.method = second_.get(), .historyLength = historyLength_, .lightDirection = lightDirection_});
+  std::vector<Denoiser*> methods;
+  for (const std::unique_ptr<Denoiser>& method : methods_) methods.push_back(method.get());
+  return declareDenoiseGraph(methods, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
 }
 
 ListedGraph Description::list(std::span<const WalrPortFormat> ports, const InspectionWish& wanted) const {
@@ -230,39 +248,34 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
           .inspection = {}};
 }
 
-bool Description::namesSecond(std::string_view name) const {
-  return second_ != nullptr && name.starts_with(kSecondLight);
-}
-
 Description::Named Description::named(std::string_view name) const {
-  if (namesSecond(name)) return {second_.get(), name.substr(kSecondLight.size())};
-  return {stage_ != nullptr ? static_cast<Configurable*>(stage_.get()) : method_.get(), name};
+  const OwnName own = withoutLight(name, methods_.size());
+  const std::span all(methods_);
+  return {own.light ? all.subspan(*own.light, 1) : all, own.name};
 }
 
 void Description::set(std::string_view name, std::string_view value) {
+  if (stage_ != nullptr) return stage_->set(name, value);
   const Named target = named(name);
-  target.settings->set(target.name, value);
-  if (second_ != nullptr && target.settings != second_.get()) second_->set(name, value);
+  for (const std::unique_ptr<Denoiser>& method : target.lights) method->set(target.name, value);
 }
 
 std::string Description::setting(std::string_view name) const {
   const Named target = named(name);
-  for (SettingDescription& setting : describeSettings(*target.settings)) {
+  Configurable& settings = stage_ != nullptr ? static_cast<Configurable&>(*stage_) : *target.lights.front();
+  for (SettingDescription& setting : describeSettings(settings)) {
     if (setting.name == target.name) return std::move(setting.value);
   }
-  throw Error(WALR_ERROR_INVALID_ARGUMENT,
-              "method '" + methodName_ + "' has no setting \"" + std::string(target.name) + "\"");
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, "method '" + methodName_ +
+                                               "' has no setting "
+                                               " + std::string(target.name) + "
+                                               "");
 }
 
 void Description::usePreset(std::string_view name) {
-  if (namesSecond(name)) {
-    second_->usePreset(name.substr(kSecondLight.size()));
-  } else if (stage_ != nullptr) {
-    stage_->usePreset(name);
-  } else {
-    method_->usePreset(name);
-    if (second_ != nullptr) second_->usePreset(name);
-  }
+  if (stage_ != nullptr) return stage_->usePreset(name);
+  const Named target = named(name);
+  for (const std::unique_ptr<Denoiser>& method : target.lights) method->usePreset(target.name);
 }
 
 HostConventions Description::hostConventions() const {

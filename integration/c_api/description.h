@@ -23,9 +23,6 @@
 
 namespace walr::api {
 
-/// What names of settings and presets of the second light alone begin with.
-inline constexpr std::string_view kSecondLight = "second.";
-
 /// Contents of the upload buffers of one frame.
 struct Constants {
   FrameDescription camera;  ///< Source of `frame`.
@@ -88,7 +85,7 @@ class Description {
   [[nodiscard]] DenoiseGraph declare(const InspectionWish& wanted = {}) const;
   /// Views of the method with its current settings.
   /// @throws std::invalid_argument naming settings that contradict each other
-  [[nodiscard]] std::vector<ViewInfo> views() const { return method_->views(); }
+  [[nodiscard]] std::vector<ViewInfo> views() const { return methods_.front()->views(); }
   /// A graph of the method or the stage between the host's images.
   /// @param ports  formats of the images that are connected to a stage's other inputs; empty for a method
   /// @param wanted further outputs of a method, for debugging; no views
@@ -104,17 +101,17 @@ class Description {
   /// Note that a frame was recorded.
   void advance(const FrameStatement& frame);
 
-  /// Change a setting of all lights, or of the second alone (`kSecondLight`).
+  /// Change a setting of all lights, or of one alone, whose `LightNames::settings` the name begins with.
   /// @throws as `Configurable::set` does
   void set(std::string_view name, std::string_view value);
-  /// Value of a setting of the first light, or of the second.
+  /// Value of a setting of the first light, or of the one that the name begins with.
   /// @throws Error naming an unknown setting
   [[nodiscard]] std::string setting(std::string_view name) const;
-  /// Use a preset for all lights, or for the second alone.
+  /// Use a preset for all lights, or for one alone.
   /// @throws std::invalid_argument naming the unknown preset and the known ones
   void usePreset(std::string_view name);
-  /// Whether there are two lights.
-  [[nodiscard]] bool twoLights() const { return second_ != nullptr; }
+  /// Number of lights; 0 for a stage.
+  [[nodiscard]] std::size_t lightCount() const { return methods_.size(); }
   /// Name of the method or the stage.
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] fg::Extent extent() const { return extent_; }
@@ -129,22 +126,20 @@ class Description {
   [[nodiscard]] std::uint32_t slot() const { return static_cast<std::uint32_t>(frames_ % slots_); }
 
  private:
-  /// The settings that a name is about, without `kSecondLight` before it.
+  /// What a name of a setting or preset is about.
   struct Named {
-    Configurable* settings;
-    std::string_view name;
+    std::span<const std::unique_ptr<Denoiser>> lights;  ///< One, or all; none for a stage.
+    std::string_view name;                              ///< Without `LightNames::settings` before it.
   };
   [[nodiscard]] Named named(std::string_view name) const;
-  [[nodiscard]] bool namesSecond(std::string_view name) const;
   [[nodiscard]] ListedGraph listStage(std::span<const WalrPortFormat> ports) const;
   [[nodiscard]] HostConventions hostConventions() const;
   [[nodiscard]] glm::ivec2 checkedOffset(glm::uvec2 offset) const;
   [[nodiscard]] glm::ivec2 checkedLightOffset(glm::uvec2 offset) const;
 
   std::string methodName_;
-  std::unique_ptr<PassNode> stage_;   ///< Null for a method.
-  std::unique_ptr<Denoiser> method_;  ///< Null for a stage.
-  std::unique_ptr<Denoiser> second_;  ///< The method of the second light; null if there is one light.
+  std::unique_ptr<PassNode> stage_;                 ///< Null for methods.
+  std::vector<std::unique_ptr<Denoiser>> methods_;  ///< That of each light; none for a stage.
   fg::Extent extent_;
   WalrConventions conventions_;
   std::array<VkFormat, std::tuple_size_v<decltype(kHostInputs)>> formats_;

@@ -1,5 +1,6 @@
 #include "integration/c_api/host_images.h"
 
+#include <algorithm>
 #include <string>
 
 #include "framegraph/declare/format.h"
@@ -18,13 +19,17 @@ struct InnerUse {
   VkImageLayout layout;
 };
 
+bool isWritten(std::size_t index) {
+  return imageSlots().at(index).role != ImageRole::Input;
+}
+
 InnerUse innerUse(std::size_t index) {
   if (isWritten(index)) return {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, kOutputLayout};
   return {VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kInputLayout};
 }
 
 [[noreturn]] void reject(std::size_t index, const std::string& what) {
-  throw Error(WALR_ERROR_INVALID_ARGUMENT, "image '" + std::string(imageName(index)) + "' " + what);
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, "image '" + imageSlots().at(index).name() + "' " + what);
 }
 
 std::string sizeText(fg::Extent extent) {
@@ -79,8 +84,83 @@ void record(const fg::vk::DeviceContext& device, VkCommandBuffer commandBuffer, 
 }
 
 bool isLighting(std::size_t index) {
-  if (index == kSecondLightingImage) return true;
-  return index < kHostInputs.size() && kHostInputs.at(index).texture == &DenoiserInputs::lighting;
+  return imageSlots().at(index).ofLight == &LightImages::lighting;
+}
+
+/// Members of `WalrFrame` that hold the images of a light.
+struct LightMembers {
+  const WalrImage* WalrFrame::*lighting;
+  const WalrImage* WalrFrame::*confidence;
+  const WalrImage* WalrFrame::*denoised;
+  const WalrImage* WalrFrame::*historyLength;
+  const WalrImage* WalrFrame::*lightDirection;
+};
+
+constexpr std::array<LightMembers, kMostLights> kLightMembers{
+    {{&WalrFrame::lighting, &WalrFrame::confidence, &WalrFrame::denoised, &WalrFrame::history_length,
+      &WalrFrame::light_direction},
+     {&WalrFrame::second_lighting, &WalrFrame::second_confidence, &WalrFrame::second_denoised,
+      &WalrFrame::second_history_length, &WalrFrame::second_light_direction}}};
+
+/// An input that lights share.
+struct SharedMember {
+  fg::Texture DenoiserInputs::*texture;
+  const WalrImage* WalrFrame::*given;
+};
+
+constexpr std::array kSharedMembers{SharedMember{&DenoiserInputs::depth, &WalrFrame::depth},
+                                    SharedMember{&DenoiserInputs::normal, &WalrFrame::normal},
+                                    SharedMember{&DenoiserInputs::motion, &WalrFrame::motion},
+                                    SharedMember{&DenoiserInputs::albedo, &WalrFrame::albedo},
+                                    SharedMember{&DenoiserInputs::objectId, &WalrFrame::object_id}};
+
+/// A slot for an image of a light.
+/// @param name of the first light's image
+ImageSlot lightSlot(std::size_t light, std::string_view name, const WalrImage* WalrFrame::*LightMembers::*member,
+                    ImageRole role, fg::Texture LightImages::*texture) {
+  return {.prefix = kLightNames.at(light).images,
+          .first = name,
+          .given = kLightMembers.at(light).*member,
+          .role = role,
+          .light = light,
+          .ofLight = texture};
+}
+
+ImageSlot lightingSlot(std::size_t light) {
+  return lightSlot(light, kLightingName, &LightMembers::lighting, ImageRole::Input, &LightImages::lighting);
+}
+
+ImageSlot confidenceSlot(std::size_t light) {
+  return lightSlot(light, kConfidenceName, &LightMembers::confidence, ImageRole::Input, &LightImages::confidence);
+}
+
+ImageSlot inputSlot(const HostInput& input) {
+  if (input.texture == &DenoiserInputs::lighting) return lightingSlot(0);
+  if (input.texture == &DenoiserInputs::confidence) return confidenceSlot(0);
+  const auto* shared = std::ranges::find(kSharedMembers, input.texture, &SharedMember::texture);
+  return {
+      .prefix = {}, .first = input.name, .given = shared->given, .role = ImageRole::Input, .ofInputs = input.texture};
+}
+
+std::array<ImageSlot, kImageCount> makeSlots() {
+  std::array<ImageSlot, kImageCount> slots;
+  auto* slot = slots.begin();
+  for (const HostInput& input : kHostInputs) *slot++ = inputSlot(input);
+  for (std::size_t i = 1; i < kMostLights; ++i) {
+    *slot++ = lightingSlot(i);
+    *slot++ = confidenceSlot(i);
+  }
+  for (std::size_t i = 0; i < kMostLights; ++i) {
+    *slot++ = lightSlot(i, kOutputName, &LightMembers::denoised, ImageRole::Result, &LightImages::output);
+  }
+  *slot++ = {.prefix = {}, .first = "view", .given = &WalrFrame::view, .role = ImageRole::Inspection};
+  for (std::size_t i = 0; i < kMostLights; ++i) {
+    *slot++ = lightSlot(i, kHistoryLengthName, &LightMembers::historyLength, ImageRole::Inspection,
+                        &LightImages::historyLength);
+    *slot++ = lightSlot(i, kLightDirectionName, &LightMembers::lightDirection, ImageRole::Inspection,
+                        &LightImages::lightDirection);
+  }
+  return slots;
 }
 
 }  // namespace
@@ -91,24 +171,23 @@ const HostStates kInnerStates{
     .outputAfter = {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, kOutputLayout},
 };
 
-std::string_view imageName(std::size_t index) {
-  constexpr std::array<std::string_view, kImageCount - kSecondLightingImage> kBesideInputs{kSecondLightingName,
-                                                                                           kSecondConfidenceName,
-                                                                                           kOutputName,
-                                                                                           kSecondOutputName,
-                                                                                           "view",
-                                                                                           kHistoryLengthName,
-                                                                                           kLightDirectionName,
-                                                                                           kSecondHistoryLengthName,
-                                                                                           kSecondLightDirectionName};
-  return index < kHostInputs.size() ? kHostInputs.at(index).name : kBesideInputs.at(index - kSecondLightingImage);
+fg::Texture ImageSlot::textureOf(const DenoiseGraph& graph) const {
+  if (ofLight != nullptr) return light < graph.lights.size() ? graph.lights[light].*ofLight : fg::Texture{};
+  if (ofInputs != nullptr) return graph.inputs.*ofInputs;
+  return graph.views.empty() ? fg::Texture{} : graph.views.front().texture;
+}
+
+const std::array<ImageSlot, kImageCount>& imageSlots() {
+  static const std::array<ImageSlot, kImageCount> kSlots = makeSlots();
+  return kSlots;
 }
 
 std::size_t imageIndex(std::string_view name) {
   std::string known;
   for (std::size_t i = 0; i < kImageCount; ++i) {
-    if (imageName(i) == name) return i;
-    known.append(known.empty() ? "" : ", ").append(imageName(i));
+    const std::string each = imageSlots().at(i).name();
+    if (each == name) return i;
+    known.append(known.empty() ? "" : ", ").append(each);
   }
   throw Error(WALR_ERROR_INVALID_ARGUMENT, "there is no image \"" + std::string(name) + "\"; known images: " + known);
 }
@@ -120,10 +199,10 @@ void markRepeated(FrameImages& images) {
       if (!images[i].given || !images[j].given || first.image != second.image) continue;
       // Outputs come after inputs.
       if (isWritten(i)) {
-        reject(j, "is also the output '" + std::string(imageName(i)) + "': use another image for the output");
+        reject(j, "is also the output '" + imageSlots().at(i).name() + "': use another image for the output");
       }
       if (!sameState(first.acquire, second.acquire) || !sameState(first.release, second.release)) {
-        reject(i, "is also the image '" + std::string(imageName(j)) + "', but in other states: give both the same");
+        reject(i, "is also the image '" + imageSlots().at(j).name() + "', but in other states: give both the same");
       }
       images[i].repeated = true;
     }

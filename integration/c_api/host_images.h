@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,35 +12,42 @@
 
 #include "framegraph/vulkan/device_context.h"
 #include "integration/denoise_graph.h"
+#include "integration/lights.h"
 
 /// The host's images of one frame, and the barriers between the host's work and the denoiser's.
 namespace walr::api {
 
-/// Arrays of images are ordered like `kHostInputs`, followed by the inputs of a second light, the outputs of both
-/// lights, the view, and the history lengths and light directions of both lights.
-inline constexpr std::size_t kSecondLightingImage = std::tuple_size_v<decltype(kHostInputs)>;
-inline constexpr std::size_t kSecondConfidenceImage = kSecondLightingImage + 1;
-inline constexpr std::size_t kOutputImage = kSecondConfidenceImage + 1;
-inline constexpr std::size_t kSecondOutputImage = kOutputImage + 1;
-inline constexpr std::size_t kViewImage = kSecondOutputImage + 1;
-inline constexpr std::size_t kHistoryLengthImage = kViewImage + 1;
-inline constexpr std::size_t kLightDirectionImage = kHistoryLengthImage + 1;
-inline constexpr std::size_t kSecondHistoryLengthImage = kLightDirectionImage + 1;
-inline constexpr std::size_t kSecondLightDirectionImage = kSecondHistoryLengthImage + 1;
-inline constexpr std::size_t kImageCount = kSecondLightDirectionImage + 1;
+/// How the denoiser uses an image of a frame.
+enum class ImageRole : std::uint8_t {
+  Input,       ///< Read.
+  Result,      ///< Receives a denoised light.
+  Inspection,  ///< Receives a view, history lengths or a light's direction.
+};
 
-/// Whether the denoiser writes an image.
-constexpr bool isWritten(std::size_t index) {
-  return index >= kOutputImage;
-}
+/// An image of a frame: where the host gives it, and which texture of the graph it is.
+struct ImageSlot {
+  std::string_view prefix;  ///< `LightNames::images`.
+  std::string_view first;   ///< Name of the image of the first light; of an image that lights share, its name.
+  const WalrImage* WalrFrame::*given;
+  ImageRole role;
+  std::size_t light = 0;                            ///< Whose it is; 0 if it is no light's.
+  fg::Texture LightImages::*ofLight = nullptr;      ///< Null if it is no light's.
+  fg::Texture DenoiserInputs::*ofInputs = nullptr;  ///< Of what the lights share; else null.
 
-/// Whether an image with a rectangle may be larger than it; the others are exactly as large.
-constexpr bool mayHoldRectangle(std::size_t index) {
-  return index <= kSecondOutputImage;
-}
+  /// In the C API.
+  [[nodiscard]] std::string name() const { return std::string(prefix).append(first); }
+  /// Invalid if the graph has none.
+  [[nodiscard]] fg::Texture textureOf(const DenoiseGraph& graph) const;
+};
 
-/// Name of an image in the C API.
-std::string_view imageName(std::size_t index);
+/// Beside the inputs of the first light, a light has two inputs, a result, history lengths and a direction; and there
+/// is one view.
+inline constexpr std::size_t kImageCount = std::tuple_size_v<decltype(kHostInputs)> + 5 * kMostLights - 2 + 1;
+
+/// All images of a frame. Arrays of images have this order: inputs of the first light, of the others, results, the
+/// view, and what else each light writes.
+const std::array<ImageSlot, kImageCount>& imageSlots();
+
 /// @throws Error naming the unknown port and the known ones
 std::size_t imageIndex(std::string_view name);
 

@@ -109,21 +109,8 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
   fg::vk::require(device().physical(), fg::vk::formatUses(declared.graph.graph.desc(), portable));
   declared.plan = compilePlan(declared.graph.graph, fg::vk::DriverMemoryModel(device().context()));
 
-  for (std::size_t i = 0; i < kHostInputs.size(); ++i) {
-    declared.images[i] = declared.graph.inputs.*kHostInputs[i].texture;
-  }
-  declared.images[kOutputImage] = declared.graph.output;
-  const auto& views = declared.graph.inspection.views();
-  if (!views.empty()) declared.images[kViewImage] = views.front().texture;
-  declared.images[kHistoryLengthImage] = declared.graph.historyLength;
-  declared.images[kLightDirectionImage] = declared.graph.lightDirection;
-  const SecondLight& second = declared.graph.second;
-  declared.images[kSecondLightingImage] = second.lighting;
-  declared.images[kSecondConfidenceImage] = second.confidence;
-  declared.images[kSecondOutputImage] = second.output;
-  declared.images[kSecondHistoryLengthImage] = second.historyLength;
-  declared.images[kSecondLightDirectionImage] = second.lightDirection;
   for (std::size_t i = 0; i < kImageCount; ++i) {
+    declared.images[i] = imageSlots().at(i).textureOf(declared.graph);
     if (!declared.images[i].valid()) continue;  // The host has none.
     const fg::PlannedResource& planned = declared.plan.resources[declared.images[i].resource];
     declared.needs[i] = {.used = planned.used,
@@ -221,32 +208,21 @@ WalrImageRequirements HostedDenoiser::requirements(std::string_view image) {
 }
 
 FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
-  const std::array<const WalrImage*, kImageCount> given{frame.lighting,
-                                                        frame.depth,
-                                                        frame.normal,
-                                                        frame.motion,
-                                                        frame.albedo,
-                                                        frame.object_id,
-                                                        frame.confidence,
-                                                        frame.second_lighting,
-                                                        frame.second_confidence,
-                                                        frame.denoised,
-                                                        frame.second_denoised,
-                                                        frame.view,
-                                                        frame.history_length,
-                                                        frame.light_direction,
-                                                        frame.second_history_length,
-                                                        frame.second_light_direction};
-  if (!description_.twoLights() && (frame.second_lighting != nullptr || frame.second_denoised != nullptr)) {
-    throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                "WalrFrame has a second light, but the denoiser is for one: create it with "
-                "WalrDenoiserInfo::light_count of 2");
-  }
   FrameImages images{};
   for (std::size_t i = 0; i < kImageCount; ++i) {
+    const ImageSlot& slot = imageSlots().at(i);
+    const WalrImage* const given = frame.*slot.given;
+    const bool required = slot.ofLight == &LightImages::lighting || slot.ofLight == &LightImages::output;
+    if (given != nullptr && required && slot.light >= description_.lightCount()) {
+      throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                  "WalrFrame has the image '" + slot.name() + "', but the denoiser is for " +
+                      std::to_string(description_.lightCount()) + " light: create it with " +
+                      "WalrDenoiserInfo::light_count of " + std::to_string(slot.light + 1));
+    }
     ImageNeeds needs = declared_->needs[i];
-    if (description_.rectangle() && mayHoldRectangle(i)) needs.offset = {frame.offset[0], frame.offset[1]};
-    images[i] = checkedImage(i, given[i], needs, device().context().view.queueFamily);
+    if (description_.rectangle() && slot.role != ImageRole::Inspection)
+      needs.offset = {frame.offset[0], frame.offset[1]};
+    images[i] = checkedImage(i, given, needs, device().context().view.queueFamily);
   }
   markRepeated(images);
   return images;

@@ -131,7 +131,7 @@ class Batch {
   void measure(Lane& lane, const BenchFrame& input, const std::vector<std::uint32_t>& before,
                const PixelMask& previousMask) {
     const Frame& frame = input.packed.frame;
-    const Image result = lane.denoiser.run(input.packed).indirect;
+    const Image result = lane.denoiser.run(input.packed).lights.front();
     lane.results.push_back(fingerprintOf(result));
     FrameErrors& errors = lane.record.frames.emplace_back();
     errors.frame = frame.number;
@@ -210,7 +210,7 @@ class Batch {
 
   void time(Lane& lane, const PackedFrame& frame, std::size_t index) {
     const DenoisedPicture picture = lane.denoiser.run(frame);
-    lane.record.reproducible = lane.record.reproducible && fingerprintOf(picture.indirect) == lane.results[index];
+    lane.record.reproducible = lane.record.reproducible && fingerprintOf(picture.lights.front()) == lane.results[index];
     lane.times.add(picture.passes);
   }
 

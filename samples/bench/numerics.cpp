@@ -34,7 +34,7 @@ HardCaseErrors judge(DenoisedPicture picture, const HardCase& hardCase) {
   HardCaseErrors judged;
   judged.hardCase = hardCase.name;
   judged.counters = std::move(picture.counters);
-  const Image& result = picture.indirect;
+  const Image& result = picture.lights.front();
   double squares = 0.0;
   double truthSquares = 0.0;
   double count = 0.0;

@@ -54,7 +54,7 @@ void answerToLight(const GpuDevice& device, const Variant& variant, Response& re
   DisplayedPair previous;
   for (int i = 0; i < kLightFrames; ++i) {
     const KnownFrame frame = lightFrame(kExtent, i);
-    const Image result = denoiser.run(frame.packed).indirect;
+    const Image result = denoiser.run(frame.packed).lights.front();
     DisplayedPair pair = display(result, frame.truth, all);
     const double rmse = compare(pair, all).rmse.value();
     if (i == 0) response.firstFrame = rmse;
@@ -82,7 +82,7 @@ void answerToDisocclusion(const GpuDevice& device, const Variant& variant, Respo
   Mean slabOverWall;
   for (int i = 0; i < kSlabFrames; ++i) {
     const KnownFrame frame = slabFrame(kExtent, i);
-    const Image result = denoiser.run(frame.packed).indirect;
+    const Image result = denoiser.run(frame.packed).lights.front();
     if (i < kFirstMeasured) continue;
     const DisplayedPair pair = display(result, frame.truth, PixelMask(frame.age.size(), 1));
     Mean slab;
@@ -140,7 +140,7 @@ void answerToMovingLight(const GpuDevice& device, const Variant& variant, Respon
   GpuDenoiser denoiser(device, *makeVariant(variant), kExtent, projectLayout());
   std::vector<double> distanceByAge(kOldest - kNewest + 1);
   for (int frame = 0; frame < kMovingLightFrames; ++frame) {
-    const std::vector<double> result = luminances(denoiser.run(movingLightFrame(kExtent, frame).packed).indirect);
+    const std::vector<double> result = luminances(denoiser.run(movingLightFrame(kExtent, frame).packed).lights.front());
     for (int age = kNewest; frame >= kFirstMeasured && age <= kOldest; ++age) {
       distanceByAge.at(static_cast<std::size_t>(age - kNewest)) += squaredDistance(result, truths.at(frame - age));
     }
@@ -155,7 +155,7 @@ CutResponse answerToCut(const GpuDevice& device, const Variant& variant, bool to
   GpuDenoiser denoiser(device, *makeVariant(variant), kExtent, projectLayout());
   for (int frame = 0; frame < kCut; ++frame) denoiser.run(cutFrame(kExtent, frame, told).packed);
   const KnownFrame frame = cutFrame(kExtent, kCut, told);
-  const Image result = denoiser.run(frame.packed).indirect;
+  const Image result = denoiser.run(frame.packed).lights.front();
   const std::vector<double> shown = luminances(result);
   const std::vector<double> now = luminances(frame.truth);
   const std::vector<double> old = luminances(cutFrame(kExtent, kCut - 1, told).truth);

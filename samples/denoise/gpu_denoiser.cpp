@@ -69,29 +69,26 @@ LightSlopes slopeImages(std::span<const glm::uvec2> texels, int width, int heigh
 }  // namespace
 
 struct GpuDenoiser::State {
-  State(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, const Layout& frameLayout,
-        const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds, const fg::vk::Membership& shared,
-        Denoiser* second)
+  State(const GpuDevice& gpu, std::span<Denoiser* const> methods, fg::Extent extent, const Layout& frameLayout,
+        const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds, const fg::vk::Membership& shared)
       : layout(frameLayout),
         declared(declareDenoiseGraph(
-            method, extent, layout.conventions,
+            methods, extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable},
-            formatsOf(objectIds), {}, wanted, {.method = second})),
+            formatsOf(objectIds), {}, wanted)),
         graph(gpu, declared.graph, framesInFlight, shared),
-        lighting(makeUpload(gpu, declared.inputs.lighting, framesInFlight)),
         depth(makeUpload(gpu, declared.inputs.depth, framesInFlight)),
         normal(makeUpload(gpu, declared.inputs.normal, framesInFlight)),
         motion(makeUpload(gpu, declared.inputs.motion, framesInFlight)),
-        albedo(makeUpload(gpu, declared.inputs.albedo, framesInFlight)),
-        output(graph.readBack(declared.output)) {
-    if (second != nullptr) {
-      secondLighting.emplace(makeUpload(gpu, declared.second.lighting, framesInFlight));
-      secondOutput = graph.readBack(declared.second.output);
+        albedo(makeUpload(gpu, declared.inputs.albedo, framesInFlight)) {
+    for (const LightImages& light : declared.lights) {
+      lighting.push_back(makeUpload(gpu, light.lighting, framesInFlight));
+      outputs.push_back(graph.readBack(light.output));
     }
     if (objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
-    for (const DebugView& view : declared.inspection.views()) views.push_back(graph.readBack(view.texture));
+    for (const DebugView& view : declared.views) views.push_back(graph.readBack(view.texture));
     if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
-    if (declared.lightDirection.valid()) lightDirection = graph.readBack(declared.inspection.lightDirection());
+    if (wanted.lightDirection) lightDirection = graph.readBack(declared.inspection.lightDirection());
     if (declared.lint.valid()) lint = graph.readBack(declared.lint);
   }
 
@@ -100,23 +97,21 @@ struct GpuDenoiser::State {
   }
 
   /// Record and submit a frame.
-  /// @param second the second light; null if there is one
-  void submit(const PackedFrame& packed, const std::vector<Rgba16>& light, const std::vector<Rgba16>* second = nullptr);
+  /// @param lights as many as there are methods
+  void submit(const PackedFrame& packed, std::span<const LightTexels> lights);
   /// Wait for the oldest frame and read it back.
   DenoisedPicture finish();
 
   const Layout& layout;
   DenoiseGraph declared;
   ReadbackGraph graph;
-  UploadedTexture lighting;
+  std::vector<UploadedTexture> lighting;  ///< Of each light.
   UploadedTexture depth;
   UploadedTexture normal;
   UploadedTexture motion;
   UploadedTexture albedo;
   std::optional<UploadedTexture> objectId;
-  ReadbackGraph::Index output;
-  std::optional<UploadedTexture> secondLighting;
-  std::optional<ReadbackGraph::Index> secondOutput;
+  std::vector<ReadbackGraph::Index> outputs;  ///< Of each light.
   std::vector<ReadbackGraph::Index> views;
   std::optional<ReadbackGraph::Index> counters;
   std::optional<ReadbackGraph::Index> lightDirection;
@@ -132,11 +127,11 @@ std::optional<double> DenoisedPicture::milliseconds() const {
                          [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
 }
 
-void GpuDenoiser::State::submit(const PackedFrame& packed, const std::vector<Rgba16>& light,
-                                const std::vector<Rgba16>* second) {
+void GpuDenoiser::State::submit(const PackedFrame& packed, std::span<const LightTexels> lights) {
   const Frame& frame = packed.frame;
-  if ((second != nullptr) != secondLighting.has_value()) {
-    throw std::logic_error("GpuDenoiser::submit: a denoiser of two lights takes two, and one of one light takes one");
+  if (lights.size() != lighting.size()) {
+    throw std::logic_error("GpuDenoiser::submit: the frame has " + std::to_string(lights.size()) +
+                           " lights, and the denoiser is for " + std::to_string(lighting.size()));
   }
   if (frame.light != layout.conventions.light) {
     throw std::logic_error("GpuDenoiser::submit: other pixels of the frame have light than the layout says");
@@ -147,8 +142,7 @@ void GpuDenoiser::State::submit(const PackedFrame& packed, const std::vector<Rgb
   if (frame.resetHistory) {
     graph.executor().resetAllHistory();
   }
-  lighting.upload(recorded, light);
-  if (second != nullptr) secondLighting->upload(recorded, *second);
+  for (std::size_t i = 0; i < lights.size(); ++i) lighting[i].upload(recorded, lights[i]);
   depth.upload(recorded, frame.depth.values());
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);
@@ -159,16 +153,18 @@ void GpuDenoiser::State::submit(const PackedFrame& packed, const std::vector<Rgb
 
 DenoisedPicture GpuDenoiser::State::finish() {
   const std::uint32_t slot = graph.finish();
-  const fg::Extent extent = declared.graph.textureDesc(declared.output).extent;
+  const fg::Extent extent = declared.graph.textureDesc(declared.lights.front().output).extent;
   const auto width = static_cast<int>(extent.width);
   const auto height = static_cast<int>(extent.height);
   const std::span<const fg::vk::PassTime> times = graph.executor().passTimes(slot);
-  DenoisedPicture picture{
-      unpackRgb(graph.read<Rgba16>(output, slot), width, height), {}, {times.begin(), times.end()}, {}, {}, {}, {}};
-  if (secondOutput) picture.second = unpackRgb(graph.read<Rgba16>(*secondOutput, slot), width, height);
+  DenoisedPicture picture;
+  picture.passes.assign(times.begin(), times.end());
+  for (const ReadbackGraph::Index output : outputs) {
+    picture.lights.push_back(unpackRgb(graph.read<Rgba16>(output, slot), width, height));
+  }
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto texels = graph.read<std::array<float, 4>>(views[i], slot);
-    picture.views.push_back({declared.inspection.views()[i].name, viewImage(texels, width, height)});
+    picture.views.push_back({declared.views[i].name, viewImage(texels, width, height)});
   }
   if (lightDirection) {
     picture.slopes = slopeImages(graph.read<glm::uvec2>(*lightDirection, slot), width, height);
@@ -182,11 +178,14 @@ DenoisedPicture GpuDenoiser::State::finish() {
   return picture;
 }
 
+GpuDenoiser::GpuDenoiser(const GpuDevice& device, std::span<Denoiser* const> methods, fg::Extent extent,
+                         const Layout& layout, const InspectionWish& wanted, std::uint32_t framesInFlight,
+                         bool objectIds, const fg::vk::Membership& shared)
+    : state_(std::make_unique<State>(device, methods, extent, layout, wanted, framesInFlight, objectIds, shared)) {}
 GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
                          const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds,
-                         const fg::vk::Membership& shared, Denoiser* second)
-    : state_(
-          std::make_unique<State>(device, method, extent, layout, wanted, framesInFlight, objectIds, shared, second)) {}
+                         const fg::vk::Membership& shared)
+    : GpuDenoiser(device, std::array{&method}, extent, layout, wanted, framesInFlight, objectIds, shared) {}
 GpuDenoiser::~GpuDenoiser() = default;
 GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
 GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
@@ -195,13 +194,10 @@ bool GpuDenoiser::full() const {
   return state_->graph.full();
 }
 
-void GpuDenoiser::submit(PackedFrame packed) {
-  state_->submit(packed, packed.lighting);
-  state_->frames.push_back(std::move(packed.frame));
-}
-
-void GpuDenoiser::submit(PackedFrame packed, const std::vector<Rgba16>& second) {
-  state_->submit(packed, packed.lighting, &second);
+void GpuDenoiser::submit(PackedFrame packed, std::span<const LightTexels> further) {
+  std::vector<LightTexels> lights{packed.lighting};
+  lights.insert(lights.end(), further.begin(), further.end());
+  state_->submit(packed, lights);
   state_->frames.push_back(std::move(packed.frame));
 }
 
@@ -210,8 +206,8 @@ std::optional<DenoisedFrame> GpuDenoiser::finish() {
   DenoisedPicture picture = state_->finish();
   DenoisedFrame denoised;
   denoised.gpuMilliseconds = picture.milliseconds();
-  denoised.indirect = std::move(picture.indirect);
-  denoised.direct = std::move(picture.second);
+  denoised.indirect = std::move(picture.lights.front());
+  if (picture.lights.size() > 1) denoised.direct = std::move(picture.lights[1]);
   denoised.views = std::move(picture.views);
   denoised.counters = std::move(picture.counters);
   denoised.slopes = std::move(picture.slopes);
@@ -221,7 +217,7 @@ std::optional<DenoisedFrame> GpuDenoiser::finish() {
 }
 
 void GpuDenoiser::submitLight(const PackedFrame& packed, const std::vector<Rgba16>& lighting) {
-  state_->submit(packed, lighting);
+  state_->submit(packed, std::array{LightTexels(lighting)});
 }
 
 DenoisedPicture GpuDenoiser::finishPicture() {
@@ -230,7 +226,7 @@ DenoisedPicture GpuDenoiser::finishPicture() {
 
 DenoisedPicture GpuDenoiser::run(const PackedFrame& packed) {
   if (!state_->frames.empty()) throw std::logic_error("GpuDenoiser::run: finish the frames in flight first");
-  state_->submit(packed, packed.lighting);
+  state_->submit(packed, std::array{LightTexels(packed.lighting)});
   return state_->finish();
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "framegraph/declare/graph.h"
@@ -19,8 +20,7 @@ namespace walr {
 
 /// The output of a method for one frame.
 struct DenoisedPicture {
-  Image indirect;  ///< 3 components: denoised demodulated diffuse radiance of the light that was submitted.
-  Image second;    ///< The same of the second light; empty if there is one light.
+  std::vector<Image> lights;  ///< 3 components: denoised demodulated diffuse radiance of each light that was submitted.
   /// Times of the passes from GPU timestamps, in the order of execution; empty if the queue has no timestamps.
   std::vector<fg::vk::PassTime> passes;
   std::vector<ViewPicture> views;
@@ -31,6 +31,9 @@ struct DenoisedPicture {
   /// Time of all passes, without the copies to and from the device; nullopt without timestamps.
   [[nodiscard]] std::optional<double> milliseconds() const;
 };
+
+/// Noisy light of a frame, a texel each pixel or group of pixels.
+using LightTexels = std::span<const Rgba16>;
 
 /// Runs a method on a Vulkan device, frame after frame: uploads the inputs, runs the passes, reads back the result, all
 /// in one frame graph that is compiled once. Several denoisers may exist on one device; only one may run at a time.
@@ -44,21 +47,24 @@ struct DenoisedPicture {
 class GpuDenoiser {
  public:
   /// @param device  must outlive this
-  /// @param method  declares its passes during this call; not needed afterwards
+  /// @param methods one for each light, which share the guides of the first. They declare their passes during this
+  ///                call and are not needed afterwards
   /// @param layout  conventions of the frames; must outlive this
   /// @param wanted  views, counters, light direction and lint words to read back with every frame
   /// @param framesInFlight  largest number of frames on the device at once, at least 1
   /// @param objectIds  whether all frames have object numbers
   /// @param shared  what this denoiser shares with others on the device; see `fg::vk::SharedObjects` for the order of
   ///                their frames
-  /// @param second  the method of a second light that shares the guides of the first; null if there is one light. As
-  ///                with `method`, only this call needs it
   /// @throws fg::vk::Error if the device lacks something that the graph needs
   /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that does not exist,
   ///         or saying why lights cannot share guides
+  GpuDenoiser(const GpuDevice& device, std::span<Denoiser* const> methods, fg::Extent extent, const Layout& layout,
+              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false,
+              const fg::vk::Membership& shared = {});
+  /// The same for one light.
   GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
               const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false,
-              const fg::vk::Membership& shared = {}, Denoiser* second = nullptr);
+              const fg::vk::Membership& shared = {});
   ~GpuDenoiser();
   GpuDenoiser(GpuDenoiser&&) noexcept;
   GpuDenoiser& operator=(GpuDenoiser&&) noexcept;
@@ -66,9 +72,8 @@ class GpuDenoiser {
   /// Submit the next frame to the device. If the frame requests it, histories are reset first.
   /// @throws std::logic_error if `framesInFlight` frames are in flight already; InputError naming a frame whose camera
   ///         is not usable; fg::vk::Error when the device fails
-  void submit(PackedFrame packed);
-  /// The same with a second light, for a denoiser of two. `finish` returns it as the frame's direct light.
-  void submit(PackedFrame packed, const std::vector<Rgba16>& second);
+  /// @param further the lights beside the frame's own; `finish` returns the first of them as the frame's direct light
+  void submit(PackedFrame packed, std::span<const LightTexels> further = {});
   /// Whether `finish` must come before the next `submit`.
   [[nodiscard]] bool full() const;
   /// Wait for the oldest frame in flight only. Returns nullopt if there is none.

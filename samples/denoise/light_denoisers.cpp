@@ -1,8 +1,18 @@
 #include "samples/denoise/light_denoisers.h"
 
+#include <array>
 #include <utility>
 
 namespace walr {
+namespace {
+
+std::vector<Denoiser*> methodsOf(std::span<const LightMethod> lights) {
+  std::vector<Denoiser*> methods;
+  for (const LightMethod& light : lights) methods.push_back(light.method.get());
+  return methods;
+}
+
+}  // namespace
 
 LightDenoisers::LightDenoisers(const GpuDevice& device, std::span<const LightMethod> lights, fg::Extent extent,
                                const Layout& layout, const InspectionWish& wanted, std::uint32_t framesInFlight,
@@ -12,8 +22,8 @@ LightDenoisers::LightDenoisers(const GpuDevice& device, std::span<const LightMet
                                                                                      : VK_NULL_HANDLE)),
       light_(lights.front().light),
       together_(lights.size() > 1 && lights[1].method->sharesGuides()),
-      first_(device, *lights.front().method, extent, layout, wanted, framesInFlight, objectIds, member(),
-             together_ ? lights[1].method.get() : nullptr) {
+      first_(device, methodsOf(lights.first(together_ ? lights.size() : 1)), extent, layout, wanted, framesInFlight,
+             objectIds, member()) {
   if (lights.size() > 1 && !together_) {
     const InspectionWish nothing;
     direct_.emplace(device, *lights[1].method, extent, layout, nothing, framesInFlight, objectIds, member());
@@ -31,7 +41,7 @@ PackedLights LightDenoisers::pack(Frame frame) const {
 }
 
 void LightDenoisers::submit(PackedLights frame) {
-  if (together_) return first_.submit(std::move(frame.packed), frame.direct);
+  if (together_) return first_.submit(std::move(frame.packed), std::array{LightTexels(frame.direct)});
   if (direct_) direct_->submitLight(frame.packed, frame.direct);
   first_.submit(std::move(frame.packed));
 }
@@ -43,7 +53,7 @@ std::optional<DenoisedFrame> LightDenoisers::finish() {
   if (direct_) {
     DenoisedPicture direct = direct_->finishPicture();
     if (done->gpuMilliseconds) *done->gpuMilliseconds += direct.milliseconds().value_or(0.0);
-    done->direct = std::move(direct.indirect);
+    done->direct = std::move(direct.lights.front());
   }
   return done;
 }

@@ -22,7 +22,7 @@ constexpr std::string_view kResults = "results";
 Image lastFrame(const GpuDevice& device, const Variant& variant, const ComparedSequence& sequence) {
   GpuDenoiser denoiser(device, *makeVariant(variant), sequence.extent, *sequence.layout);
   Image result;
-  for (const PackedFrame& frame : sequence.frames) result = denoiser.run(frame).indirect;
+  for (const PackedFrame& frame : sequence.frames) result = denoiser.run(frame).lights.front();
   return result;
 }
 

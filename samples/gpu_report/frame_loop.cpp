@@ -65,14 +65,15 @@ struct FrameLoop::State {
             *makeVariant(variant), content.extent, content.layout->conventions,
             {.inputs = kResident, .outputBefore = kComputeHost.outputBefore, .outputAfter = kComputeHost.outputAfter})),
         graph(device, declared.graph, kFramesInFlight),
-        output(fg::vk::createImage(device.device().context(), declared.graph.textureDesc(declared.output),
-                                   graph.executor().usage(declared.output), "result")),
+        output(fg::vk::createImage(device.device().context(),
+                                   declared.graph.textureDesc(declared.lights.front().output),
+                                   graph.executor().usage(declared.lights.front().output), "result")),
         outputMemory(device.device().context(), VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "result"),
         work(workOf(declared.graph.desc(), graph.plan())),
         queue(device.device().context(), device.device().queue(), kFramesInFlight) {
     outputMemory.add(output.get());
     outputMemory.allocate();
-    graph.executor().bind(declared.output, {output.get(), 0});
+    graph.executor().bind(declared.lights.front().output, {output.get(), 0});
     for (const PackedFrame& frame : content.frames) addFrame(frame, content.layout->motionScale);
     upload();
   }

@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -199,7 +198,7 @@ TEST_P(DenoiserPlansTest, TwoLightsShareTheGuides) {
   const std::unique_ptr<Denoiser> first = make(GetParam());
   const std::unique_ptr<Denoiser> second = make(GetParam());
   const auto declare = [&] {
-    return declareDenoiseGraph(*first, kExtent, InputConventions{}, kComputeHost, {}, {}, {}, {.method = second.get()});
+    return declareDenoiseGraph(std::array{first.get(), second.get()}, kExtent, InputConventions{}, kComputeHost);
   };
   if (!first->sharesGuides()) {
     EXPECT_EQ(GetParam().method, "none");

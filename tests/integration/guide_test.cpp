@@ -138,8 +138,9 @@ Costs costsOf(const char* preset, const char* second) {
   method->usePreset(preset);
   const auto other = makeDenoiser("walr");
   if (second != nullptr) other->usePreset(second);
-  const DenoiseGraph declared = declareDenoiseGraph(*method, kExtent, {}, kComputeHost, {}, {}, {},
-                                                    {.method = second != nullptr ? other.get() : nullptr});
+  std::vector<Denoiser*> methods{method.get()};
+  if (second != nullptr) methods.push_back(other.get());
+  const DenoiseGraph declared = declareDenoiseGraph(methods, kExtent, {}, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) throw std::runtime_error(result.text());
   const auto bytes = static_cast<double>(result.plan.traffic.bytesRead + result.plan.traffic.bytesWritten);

@@ -66,7 +66,6 @@ class TwoLights : public PluginTest {
     }
   }
 
- private:
   void fill(Opaque& together, Opaque& first, Opaque& second, const std::string& name, std::uint32_t number) {
     const bool ofLight = name == "lighting" || name == "confidence";
     host_upload(&host, &together.image(name), inputOf(name, number, false).data());
@@ -125,6 +124,26 @@ TEST_F(TwoLights, MayHaveOneImageOfConfidence) {
   EXPECT_NE(std::string(api().last_error()).find("image 'second_confidence' is also the image 'confidence'"),
             std::string::npos);
   shared.image("second_confidence") = own;
+}
+
+// A view of the second light is that of a denoiser of its own.
+TEST_F(TwoLights, HaveViewsOfTheirOwn) {
+  const WalrDenoiserInfo one = info("walr", kSize);
+  WalrDenoiserInfo both = one;
+  both.light_count = 2;
+  Opaque together(host, api(), both, "second.coarse-fit");
+  Opaque first(host, api(), one, "coarse-fit");
+  Opaque second(host, api(), one, "coarse-fit");
+  for (std::uint32_t number = 0; number < 2; ++number) {
+    for (const char* name : kInputs) fill(together, first, second, name, number);
+    for (Opaque* each : {&together, &first, &second}) each->frame(cameraAt(float(number) * kStep), 0);
+  }
+  EXPECT_EQ(download(host, together.image("view")), download(host, second.image("view")));
+  EXPECT_NE(download(host, together.image("view")), download(host, first.image("view")));
+  WalrDenoiser alone = nullptr;
+  require(api().create_denoiser(&one, &alone));
+  EXPECT_EQ(api().set_view(alone, "second.coarse-fit"), WALR_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(api().destroy_denoiser(alone), WALR_SUCCESS);
 }
 
 TEST_F(TwoLights, HaveSettingsOfTheirOwn) {

@@ -241,7 +241,7 @@ TEST_F(HostTest, SparseLightIsTracedAndDenoised) {
       if (inGroup == frame.lightOffset) continue;
       for (const float channel : frame.indirect.pixel(i)) ASSERT_EQ(channel, 0.0F) << "pixel " << i;
     }
-    EXPECT_TRUE(std::ranges::equal(denoiser.run(packFrame(frame)).indirect.values(), shown.denoised.values()));
+    EXPECT_TRUE(std::ranges::equal(denoiser.run(packFrame(frame)).lights.front().values(), shown.denoised.values()));
   }
 }
 
@@ -502,7 +502,7 @@ DenoisedMetal denoiseMetal(const GpuDevice& gpu, Tracer::Options options) {
     const bool last = number == kFrames.last;
     result.own = firstHit.trace({.number = number, .animationFrame = double(number)});
     result.shown = byMaterial.trace({.number = number, .animationFrame = double(number), .reference = last});
-    result.indirect = denoiser.run(packFrame(result.shown)).indirect;
+    result.indirect = denoiser.run(packFrame(result.shown)).lights.front();
   }
   return result;
 }

@@ -54,7 +54,7 @@ Result denoised(const GpuDevice& device, const std::filesystem::path& folder, Mo
     DenoisedPicture picture = denoiser.run(frame);
     if (i < kBuiltUp) continue;
     result.withoutHistory += counterOf(picture, "no-history") / double(kFrames - kBuiltUp);
-    result.pictures.push_back(std::move(picture.indirect));
+    result.pictures.push_back(std::move(picture.lights.front()));
   }
   return result;
 }

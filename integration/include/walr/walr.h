@@ -314,9 +314,9 @@ typedef struct WalrDenoiserInfo {
   /* Lights of one view (indirect and direct): 1 or 2; 0 means 1. Two lights share depth, normals, motion and albedo,
    * which are prepared once, and the search for their history. Each has its own histories and settings. The results are
    * those of two denoisers, to the bit. The images of the second light are WalrFrame::second_lighting and those after
-   * it; their formats are those of the first. View, counters and lint are those of the first light. Settings that
-   * decide which guides are made must be the same for both; the error text lists them. Methods without guides and
-   * single stages have one light. */
+   * it; their formats are those of the first. Counters and lint are those of the first light, and so is the view unless
+   * its name begins with "second.". Settings that decide which guides are made must be the same for both; the error
+   * text lists them. Methods without guides and single stages have one light. */
   uint32_t light_count;
   const char* second_preset; /* With two lights: the preset of the second. Null means `preset`. */
 } WalrDenoiserInfo;
@@ -550,8 +550,8 @@ WALR_API WalrResult walr_get_views(WalrDenoiser denoiser, uint32_t* count, WalrV
 /* Choose the view that the next frames write to WalrFrame::view: an RGBA32F image of exactly the denoised size. It
  * costs a pass that repeats the work of its stage, and takes effect like a setting that changes passes: the history is
  * kept. If a later setting removes the view, walr_record fails until another is chosen. name: of walr_get_views;
- * "NAME.T" is the view of iteration T where its stage iterates, and "NAME" that of the last. Null: none, the default.
- */
+ * "NAME.T" is the view of iteration T where its stage iterates, and "NAME" that of the last. With two lights
+ * "second.NAME" is the view of the second. Null: none, the default. */
 WALR_API WalrResult walr_set_view(WalrDenoiser denoiser, const char* name);
 
 /* How often something happened in a frame, for instance in how many pixels. */

@@ -34,7 +34,7 @@ void denoise(const fg::vk::DeviceContext& device, fg::Extent extent, Host& host)
   executor.bind(declared.inputs.normal, {.image = host.normal});
   executor.bind(declared.inputs.motion, {.image = host.motion});
   executor.bind(declared.inputs.albedo, {.image = host.albedo});
-  executor.bind(declared.output, {.image = host.denoised});
+  executor.bind(declared.lights.front().output, {.image = host.denoised});
 
   // Every frame: the camera, then all passes with their barriers. Two frames may be on the GPU at once.
   executor.upload(declared.inputs.frame, walr::frameConstants(host.camera, extent));
