@@ -46,7 +46,7 @@ set(settings
   "set(PROGRAMS [[$<TARGET_FILE:walr>]] [[$<TARGET_FILE:walr-host>]])"
   "set(OPENED_LIBRARIES [[${libraries_of_glfw}]])"
   "set(COMPILED_IN [[${compiled_in}]])"
-  "set(SCENE [[${PROJECT_SOURCE_DIR}/samples/scenes/box.gltf]])"
+  "set(SCENE [[${PROJECT_BINARY_DIR}/samples/scenes/box.gltf]])"
   "set(STRIP [[${CMAKE_STRIP}]])")
 list(JOIN settings "\n" settings)
 install(CODE "${settings}" COMPONENT bundle EXCLUDE_FROM_ALL)
@@ -54,7 +54,8 @@ install(SCRIPT cmake/bundle_contents.cmake COMPONENT bundle EXCLUDE_FROM_ALL)
 
 install(FILES samples/bundle/README.md LICENSE CHANGELOG.md DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL)
 install(PROGRAMS samples/bundle/try.sh DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL)
-install(FILES samples/scenes/box.gltf samples/scenes/kitchen.gltf samples/scenes/turntable.gltf DESTINATION samples/scenes
-  COMPONENT bundle EXCLUDE_FROM_ALL)
+foreach(scene IN ITEMS box kitchen turntable)
+  install(FILES "${PROJECT_BINARY_DIR}/samples/scenes/${scene}.gltf" DESTINATION samples/scenes COMPONENT bundle EXCLUDE_FROM_ALL)
+endforeach()
 install(PROGRAMS samples/blender/export_frames.py DESTINATION samples/blender COMPONENT bundle EXCLUDE_FROM_ALL)
 walr_install_guides(doc bundle EXCLUDE_FROM_ALL)

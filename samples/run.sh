@@ -15,7 +15,7 @@ walr_setup
 walr_build walr
 # The reference takes most of the time, so only the last frame gets one, when history has built up. At 1024 samples per
 # pixel, about four minutes on two idle cores, its own noise is less than the error of the result; both are printed.
-build/bin/walr render samples/scenes/kitchen.gltf --output "$folder/kitchen" --frames 0-9 --size 480x270 --jitter \
+build/bin/walr render build/samples/scenes/kitchen.gltf --output "$folder/kitchen" --frames 0-9 --size 480x270 --jitter \
   --reference-spp 1024 --reference-frames 9-9 --reference-pixel area
 build/bin/walr denoise "$folder/kitchen" --output "$folder/denoised" --composite --direct-light reference --png
 echo "Noisy | denoised | reference; the lit images, and below them the light alone: $folder/denoised/comparison_0009.png"

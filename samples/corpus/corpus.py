@@ -207,7 +207,7 @@ def parse(arguments):
     command.add_argument("--output", required=True, help="folder for results.json, RESULTS.md and pictures")
     command.add_argument("--cache", default=default_cache(), help="folder for frames and judgements; default: %(default)s")
     command.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
-                         default=table.PROJECT / "build" / "bin" / "walr")
+                         default=table.BUILD / "bin" / "walr")
     command.add_argument("--render-only", action="store_true", help="only render")
     command.add_argument("--keep-pictures", action="store_true", help="keep every result in the cache, about 3 GB for 1920 x 1080")
     command = commands.add_parser("agree")

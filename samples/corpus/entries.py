@@ -9,7 +9,9 @@ import sys
 import tempfile
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
-BUILT_IN = PROJECT / "samples" / "scenes"
+BUILD = pathlib.Path(os.environ.get("WALR_BUILD", PROJECT / "build"))
+"""The folder of the build, whose programs and scenes are used unless an option names others."""
+BUILT_IN = BUILD / "samples" / "scenes"
 SHARED = pathlib.Path(os.environ.get("WALR_SHARED") or "$WALR_SHARED")
 """Folder of scenes and sequences that are not part of the project. Without the environment variable its name stands in their
 paths, so that messages about absent files say what to set."""

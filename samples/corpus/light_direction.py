@@ -63,7 +63,7 @@ def interpolated(image_at):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--output", required=True, type=pathlib.Path)
-    parser.add_argument("--walr", type=pathlib.Path, default=table.PROJECT / "build" / "bin" / "walr")
+    parser.add_argument("--walr", type=pathlib.Path, default=table.BUILD / "bin" / "walr")
     arguments = parser.parse_args()
     folder, walr, scene = arguments.output, arguments.walr, table.BUILT_IN / "box.gltf"
     folder.mkdir(parents=True, exist_ok=True)

@@ -135,7 +135,7 @@ def main():
     parser.add_argument("--scene", default=table.SHARED / "scenes" / "cornell_fence.glb")
     parser.add_argument("--size", default="384x216", help="default: %(default)s")
     parser.add_argument("--sampler", default="blue-noise", help="of walr render; default: %(default)s")
-    parser.add_argument("--walr", type=pathlib.Path, default=table.PROJECT / "build" / "bin" / "walr", help="the program")
+    parser.add_argument("--walr", type=pathlib.Path, default=table.BUILD / "bin" / "walr", help="the program")
     arguments = parser.parse_args()
     print("rays  luminance up to  estimated  measured  ratio")
     for samples in SAMPLES:

@@ -212,7 +212,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cache", default=corpus.default_cache(), help="folder for frames and results; default: %(default)s")
     parser.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
-                        default=table.PROJECT / "build" / "bin" / "walr")
+                        default=table.BUILD / "bin" / "walr")
     parser.add_argument("--rendered-only", action="store_true", help="judge what has been rendered, and leave out the rest")
     run(parser.parse_args())
 

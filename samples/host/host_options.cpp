@@ -118,11 +118,9 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
 
 std::filesystem::path builtInScene() {
   const std::filesystem::path folder = std::filesystem::canonical("/proc/self/exe").parent_path();
-  // From build/bin in the source tree, or from libexec in the bundle.
-  for (const char* const root : {"../..", ".."}) {
-    const std::filesystem::path scene = (folder / root / "samples/scenes/kitchen.gltf").lexically_normal();
-    if (std::filesystem::exists(scene)) return scene;
-  }
+  // Beside bin in the build, and beside libexec in the bundle.
+  std::filesystem::path scene = folder.parent_path() / "samples/scenes/kitchen.gltf";
+  if (std::filesystem::exists(scene)) return scene;
   throw UsageError(
       "samples/scenes/kitchen.gltf, which comes with walr, was not found from the program's folder: name a scene, as "
       "in "

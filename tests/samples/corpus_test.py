@@ -5,6 +5,7 @@ import dataclasses
 import io
 import json
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -14,6 +15,8 @@ from unittest import mock
 
 import numpy as np
 
+WALR = pathlib.Path(sys.argv.pop(1)).resolve()
+os.environ["WALR_BUILD"] = str(WALR.parents[1])
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "samples" / "corpus"))
 import corpus
@@ -32,7 +35,6 @@ import results
 import sizes_page
 from markdown_text import verdict
 
-WALR = pathlib.Path(sys.argv.pop(1)).resolve()
 TINY = entries.Entry("tiny", entries.BUILT_IN / "stair.gltf", (64, 36), (2, 4), 1, reference_samples=4, part="daily")
 
 
