@@ -56,59 +56,41 @@ static void test_device(const Host* host) {
   EXPECT_OK(walr_check_device(&device));
 }
 
+/* A description that is good but for one change. */
+#define REFUSED(text, ...)                                                             \
+  do {                                                                                 \
+    info = info_of(device);                                                            \
+    __VA_ARGS__;                                                                       \
+    EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, text); \
+  } while (0)
+
 static void test_create(const WalrDevice* device) {
   WalrDenoiser denoiser = NULL;
   WalrDenoiserInfo info = info_of(device);
   EXPECT(walr_create_denoiser(NULL, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo is null");
   EXPECT(walr_create_denoiser(&info, NULL), WALR_ERROR_INVALID_ARGUMENT, "null");
-  info.device = NULL;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "WalrDevice is null");
-  info = info_of(device);
-  info.method = "magic";
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "known methods: walr");
-  info = info_of(device);
-  info.preset = "magic";
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
-         "known presets: standard, fast; of the former presets, blocks and one-sample are now fast");
-  info = info_of(device);
-  info.method = "svgf";
-  info.light_direction = VK_TRUE;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT,
-         "there is no light direction: the method");
-  info = info_of(device);
-  info.method = "none";
-  info.history_length = VK_TRUE;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "there is no history length");
-  info = info_of(device);
-  info.width = 0;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "0 x 48");
-  info = info_of(device);
-  info.height = 1U << 20;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "16384");
-  info = info_of(device);
-  info.frames_in_flight = 1000;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "frames_in_flight");
-  info = info_of(device);
-  info.depth_format = VK_FORMAT_R32_UINT;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "'depth' cannot be of format R32_UINT");
-  info = info_of(device);
-  info.normal_format = VK_FORMAT_R16G16_SFLOAT;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "3 channels");
-  info = info_of(device);
-  WalrConventions conventions = {.struct_size = sizeof(conventions), .motion_unit = (WalrMotionUnit)7};
-  info.conventions = &conventions;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "motion_unit is 7");
-  conventions = (WalrConventions){.struct_size = sizeof(conventions), .motion_scale = {NAN, 1}};
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "motion_scale");
-  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_group = {2, 4}};
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "light_group is 4 pixels");
-  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_group = {2, 2}, .rectangle = VK_TRUE};
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "only one of the two");
-  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_masked = VK_TRUE};
-  info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "4 channels");
-  conventions = (WalrConventions){.struct_size = sizeof(conventions), .light_counted = VK_TRUE};
-  EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "4 channels");
+  REFUSED("WalrDevice is null", info.device = NULL);
+  REFUSED("known methods: walr", info.method = "magic");
+  REFUSED("known presets: standard, fast; of the former presets, blocks and one-sample are now fast",
+          info.preset = "magic");
+  REFUSED("there is no light direction: the method", info.method = "svgf", info.light_direction = VK_TRUE);
+  REFUSED("there is no history length", info.method = "none", info.history_length = VK_TRUE);
+  REFUSED("0 x 48", info.width = 0);
+  REFUSED("16384", info.height = 1U << 20);
+  REFUSED("frames_in_flight", info.frames_in_flight = 1000);
+  REFUSED("'depth' cannot be of format R32_UINT", info.depth_format = VK_FORMAT_R32_UINT);
+  REFUSED("3 channels", info.normal_format = VK_FORMAT_R16G16_SFLOAT);
+  WalrConventions conventions;
+#define CONVENTIONS(...) \
+  conventions = (WalrConventions){.struct_size = sizeof(conventions), __VA_ARGS__}, info.conventions = &conventions
+  REFUSED("motion_unit is 7", CONVENTIONS(.motion_unit = (WalrMotionUnit)7));
+  REFUSED("motion_scale", CONVENTIONS(.motion_scale = {NAN, 1}));
+  REFUSED("light_group is 4 pixels", CONVENTIONS(.light_group = {2, 4}));
+  REFUSED("only one of the two", CONVENTIONS(.light_group = {2, 2}, .rectangle = VK_TRUE));
+  REFUSED("4 channels", CONVENTIONS(.light_masked = VK_TRUE), info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32);
+  REFUSED("4 channels", CONVENTIONS(.light_counted = VK_TRUE),
+          info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32);
+#undef CONVENTIONS
   EXPECT_TRUE(denoiser == NULL);
 
   /* A caller with a newer header works as long as it sets no field that this version does not know. */

@@ -22,65 +22,39 @@ static void test_images(Host* host, const WalrDevice* device) {
   WalrFrame frame = good;
   EXPECT(walr_record(denoiser, commands, NULL), WALR_ERROR_INVALID_ARGUMENT, "WalrFrame is null");
   EXPECT(walr_record(denoiser, VK_NULL_HANDLE, &frame), WALR_ERROR_INVALID_ARGUMENT, "command buffer");
-  frame.camera = NULL;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "camera is null");
-  WalrCamera camera = kCamera;
-  camera.view[3] = NAN;
-  frame.camera = &camera;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "view is not finite");
-  camera = kCamera;
-  memset(camera.view, 0, sizeof(camera.view));
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "singular");
-  camera = kCamera;
-  camera.projection[5] *= -1;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "projection matrix has y down");
-  camera = kCamera;
-  memcpy(camera.projection, kCamera.view, sizeof(camera.projection));
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::orthographic");
-  frame = good;
-  frame.sky_depth = -1;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "sky_depth");
-  frame = good;
-  frame.flags = 64;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "unknown bits");
-  frame = good;
-  frame.offset[1] = 1;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::rectangle");
-  frame = good;
-  frame.light_offset[0] = 1;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "WalrConventions::light_group, 1 x 1");
-  frame = good;
-  frame.motion = NULL;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'motion' is null");
-
-  WalrImage image = images.image[1];
-  frame = good;
-  frame.depth = &image;
-  image.struct_size = 4;
+#define REFUSED(text, ...)                                                              \
+  do {                                                                                  \
+    frame = good;                                                                       \
+    __VA_ARGS__;                                                                        \
+    EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, text); \
+  } while (0)
+  REFUSED("camera is null", frame.camera = NULL);
+  WalrCamera camera;
+#define CAMERA(change) camera = kCamera, frame.camera = &camera, change
+  REFUSED("view is not finite", CAMERA(camera.view[3] = NAN));
+  REFUSED("singular", CAMERA(memset(camera.view, 0, sizeof(camera.view))));
+  REFUSED("projection matrix has y down", CAMERA(camera.projection[5] *= -1));
+  REFUSED("WalrConventions::orthographic", CAMERA(memcpy(camera.projection, kCamera.view, sizeof(camera.projection))));
+#undef CAMERA
+  REFUSED("sky_depth", frame.sky_depth = -1);
+  REFUSED("unknown bits", frame.flags = 64);
+  REFUSED("WalrConventions::rectangle", frame.offset[1] = 1);
+  REFUSED("WalrConventions::light_group, 1 x 1", frame.light_offset[0] = 1);
+  REFUSED("image 'motion' is null", frame.motion = NULL);
+  WalrImage image;
+#define DEPTH(change) image = images.image[1], frame.depth = &image, change
+  REFUSED("'depth' has a null VkImage", DEPTH(image.image = VK_NULL_HANDLE));
+  REFUSED("made for R32_SFLOAT", DEPTH(image.format = VK_FORMAT_R16_SFLOAT));
+  REFUSED("call walr_resize", DEPTH(image.width = 8));
+  REFUSED("walr_get_image_requirements", DEPTH(image.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+  REFUSED("transfer its ownership", DEPTH(image.queue_family = host->queue_family + 1));
+  REFUSED("no contents", DEPTH(image.acquire.layout = VK_IMAGE_LAYOUT_UNDEFINED));
+  DEPTH(image.struct_size = 4);
+#undef DEPTH
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_STRUCT_SIZE, "sizeof(WalrImage)");
-  image = images.image[1];
-  image.image = VK_NULL_HANDLE;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "'depth' has a null VkImage");
-  image = images.image[1];
-  image.format = VK_FORMAT_R16_SFLOAT;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "made for R32_SFLOAT");
-  image = images.image[1];
-  image.width = 8;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "call walr_resize");
-  image = images.image[1];
-  image.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "walr_get_image_requirements");
-  image = images.image[1];
-  image.queue_family = host->queue_family + 1;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "transfer its ownership");
-  image = images.image[1];
-  image.acquire.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "no contents");
-  frame = good;
   image = images.image[0];
   image.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
-  frame.denoised = &image;
-  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "also the output");
+  REFUSED("also the output", frame.denoised = &image);
 
   /* The denoiser still works after all these errors: record a frame, then one of another size while the first may still
    * be in flight. */
