@@ -74,9 +74,9 @@ class PassCheck {
   std::vector<std::string>& violations_;
 };
 
+/// An entry of the file without its methods.
 nlohmann::ordered_json toJson(const PassBudget& pass) {
-  nlohmann::ordered_json json = {{"method", pass.method},
-                                 {"pass", pass.pass},
+  nlohmann::ordered_json json = {{"pass", pass.pass},
                                  {"vgprs", pass.vectorRegisters},
                                  {"lds", pass.sharedBytes},
                                  {"instructions", pass.instructions},
@@ -96,7 +96,7 @@ Budget readBudget(const std::filesystem::path& file) {
     budget.family = json.at("family");
     budget.extent = {json.at("width"), json.at("height")};
     for (const nlohmann::json& entry : json.at("passes")) {
-      PassBudget pass = {.method = entry.at("method"),
+      PassBudget pass = {.method = {},
                          .pass = entry.at("pass"),
                          .vectorRegisters = entry.at("vgprs"),
                          .sharedBytes = entry.at("lds"),
@@ -106,20 +106,33 @@ Budget readBudget(const std::filesystem::path& file) {
                          .cyclesPerWave = entry.at("cycles_per_wave"),
                          .tripCounts = entry.at("trip_counts")};
       if (entry.contains("branches_elsewhere")) pass.branchesElsewhere = entry.at("branches_elsewhere");
-      budget.passes.push_back(std::move(pass));
+      for (const nlohmann::json& method : entry.at("methods")) {
+        pass.method = method;
+        budget.passes.push_back(pass);
+      }
     }
   });
   return budget;
 }
 
 void writeBudget(const Budget& budget, const std::filesystem::path& file) {
-  // A line per pass, so that a change of one shows as such.
+  // Methods whose passes cost the same share an entry.
+  std::vector<std::pair<nlohmann::ordered_json, std::vector<std::string>>> entries;
+  for (const PassBudget& pass : budget.passes) {
+    nlohmann::ordered_json json = toJson(pass);
+    auto entry = std::ranges::find(entries, json, &decltype(entries)::value_type::first);
+    if (entry == entries.end()) entry = entries.emplace(entry, std::move(json), std::vector<std::string>());
+    entry->second.push_back(pass.method);
+  }
+  // A line per entry, so that a change of one shows as such.
   std::ofstream stream(file);
   stream << "{\n  \"driver\": " << nlohmann::json(budget.driver) << ",\n  \"family\": " << nlohmann::json(budget.family)
          << ",\n  \"width\": " << budget.extent.width << ",\n  \"height\": " << budget.extent.height
          << ",\n  \"passes\": [";
-  for (std::size_t i = 0; i < budget.passes.size(); ++i) {
-    stream << (i == 0 ? "\n    " : ",\n    ") << toJson(budget.passes[i]);
+  const char* separator = "\n    ";
+  for (auto& [json, methods] : entries) {
+    json["methods"] = methods;
+    stream << std::exchange(separator, ",\n    ") << json;
   }
   stream << "\n  ]\n}\n";
   if (!stream.flush()) throw std::runtime_error("cannot write " + file.string());
