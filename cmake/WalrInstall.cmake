@@ -1,12 +1,15 @@
 # Install rules. Components: runtime (shared library, plug-in), dev (headers, static library,
 # CMake and pkg-config files, guides), cpp (the C++ libraries with their headers), and tools (the program walr). `cpack`
-# makes Debian packages of them. `cpack -G TGZ` makes an archive of the component bundle (WalrBundle.cmake).
+# makes Debian packages of them, or one ZIP archive for Windows. `cpack -G TGZ` makes an archive of the component bundle
+# (WalrBundle.cmake).
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/walr")
 
 install(TARGETS walr_shared EXPORT walr-shared
-  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT dev)
+  RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT dev
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 install(TARGETS walr_plugin LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/walr" COMPONENT runtime)
 install(DIRECTORY integration/include/walr DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
 
@@ -33,15 +36,18 @@ foreach(part IN LISTS parts)
   endif()
   install(EXPORT walr-${part} NAMESPACE walr:: DESTINATION "${package_dir}" COMPONENT ${component})
 endforeach()
-set(WALR_PLUGIN_PATH "${CMAKE_INSTALL_LIBDIR}/walr/walr_plugin.so")
+set(WALR_PLUGIN_PATH "${CMAKE_INSTALL_LIBDIR}/walr/walr_plugin${CMAKE_SHARED_MODULE_SUFFIX}")
 configure_package_config_file(cmake/walrConfig.cmake.in "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake"
-  INSTALL_DESTINATION "${package_dir}" PATH_VARS WALR_PLUGIN_PATH)
+  INSTALL_DESTINATION "${package_dir}" PATH_VARS WALR_PLUGIN_PATH CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/walrConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 file(RELATIVE_PATH WALR_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+set(WALR_PC_PRIVATE stdc++ m ${CMAKE_DL_LIBS})
+list(TRANSFORM WALR_PC_PRIVATE PREPEND -l)
+list(JOIN WALR_PC_PRIVATE " " WALR_PC_PRIVATE)
 configure_file(cmake/walr.pc.in "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" @ONLY)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walrConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/walrConfigVersion.cmake"
-  DESTINATION "${package_dir}" COMPONENT dev)
+  cmake/WalrVulkanHeaders.cmake DESTINATION "${package_dir}" COMPONENT dev)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/walr.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 # walr_install_guides(<folder> <component> [EXCLUDE_FROM_ALL]): installs the guides in the folders of the source tree, so
@@ -66,7 +72,12 @@ if(TARGET walr)
   include(WalrBundle)
 endif()
 
-set(CPACK_GENERATOR DEB)
+if(WIN32)
+  include(WalrWindows)
+  set(CPACK_GENERATOR ZIP)
+else()
+  set(CPACK_GENERATOR DEB)
+endif()
 set(CPACK_PACKAGE_CONTACT "walr")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

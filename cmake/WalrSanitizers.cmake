@@ -3,6 +3,9 @@
 set(WALR_SANITIZE "" CACHE STRING "Sanitizers to build with (value of -fsanitize=); empty for none")
 
 if(WALR_SANITIZE)
+  if(MSVC)
+    message(FATAL_ERROR "WALR_SANITIZE works with gcc and clang only: leave it empty for ${CMAKE_CXX_COMPILER_ID}.")
+  endif()
   add_compile_options(-fsanitize=${WALR_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${WALR_SANITIZE})
   add_subdirectory(tests/sanitizers)

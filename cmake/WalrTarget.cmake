@@ -1,9 +1,13 @@
 # walr_target(<target>): sets the compile options of all targets of the project.
 function(walr_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
-  if(WALR_WARNINGS_AS_ERRORS)
-    target_compile_options(${target} PRIVATE -Werror)
+  if(MSVC)  # Also clang-cl, which takes the same options.
+    target_compile_options(${target} PRIVATE /W4 /permissive- /utf-8 $<$<COMPILE_LANGUAGE:CXX>:/Zc:__cplusplus>
+      $<$<BOOL:${WALR_WARNINGS_AS_ERRORS}>:/WX>)
+    # <windows.h> defines min and max as macros, and the standard C functions are not deprecated.
+    target_compile_definitions(${target} PRIVATE NOMINMAX _CRT_SECURE_NO_WARNINGS)
+  else()
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic $<$<BOOL:${WALR_WARNINGS_AS_ERRORS}>:-Werror>)
   endif()
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "EXECUTABLE")
@@ -13,7 +17,9 @@ endfunction()
 
 # walr_compile_fast(<target>): optimizes a target less. For code that takes longer to compile than to run.
 function(walr_compile_fast target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+  if(NOT MSVC)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+  endif()
 endfunction()
 
 # walr_library(<name> SOURCES ...): adds a library target walr_<name> with the alias walr::<name>. Include paths start at

@@ -26,11 +26,10 @@
 
 #include <vulkan/vulkan_core.h>
 
-#if defined(_WIN32) && defined(WALR_BUILDING_SHARED)
-#define WALR_API __declspec(dllexport)
-#elif defined(_WIN32) && defined(WALR_SHARED)
+/* With Windows' shared library, a host may define WALR_SHARED; it saves each call a jump. walr::shared of CMake does so. */
+#if defined(_WIN32) && defined(WALR_SHARED)
 #define WALR_API __declspec(dllimport)
-#elif defined(__GNUC__)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define WALR_API __attribute__((visibility("default")))
 #else
 #define WALR_API
