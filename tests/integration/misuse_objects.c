@@ -1,7 +1,7 @@
 /* Wrong handles and settings, and calls from two threads. */
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
-#include <threads.h>
 
 #include "misuse.h"
 
@@ -68,12 +68,12 @@ typedef struct Intruder {
   int calls;
 } Intruder;
 
-static int intrude(void* user) {
+static void* intrude(void* user) {
   Intruder* intruder = user;
   intruder->prepare = walr_prepare(intruder->denoiser);
   snprintf(intruder->text, sizeof(intruder->text), "%s", walr_last_error());
   intruder->destroy = walr_destroy_denoiser(intruder->denoiser);
-  return 0;
+  return NULL;
 }
 
 static void on_log(void* user, WalrLogLevel level, const char* text) {
@@ -81,9 +81,9 @@ static void on_log(void* user, WalrLogLevel level, const char* text) {
   Intruder* intruder = user;
   if (intruder->denoiser == NULL || text[0] == '\0') return;
   ++intruder->calls;
-  thrd_t thread;
-  EXPECT_TRUE(thrd_create(&thread, intrude, intruder) == thrd_success);
-  thrd_join(thread, NULL);
+  pthread_t thread;
+  EXPECT_TRUE(pthread_create(&thread, NULL, intrude, intruder) == 0);
+  pthread_join(thread, NULL);
   EXPECT(walr_prepare(intruder->denoiser), WALR_ERROR_CONCURRENT_USE, "in use");
 }
 

@@ -1,8 +1,9 @@
 #include "tests/integration/random_device.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstddef>
 #include <cstring>
+#include <new>
 
 #include <vulkan/vulkan.h>
 
@@ -14,15 +15,14 @@ namespace {
 constexpr std::size_t kBefore = 64;  // At least any alignment that Vulkan asks for in practice.
 
 void* allocate(void* /*user*/, std::size_t size, std::size_t /*alignment*/, VkSystemAllocationScope /*scope*/) {
-  auto* const start =
-      static_cast<std::byte*>(std::aligned_alloc(kBefore, kBefore + (size + kBefore - 1) / kBefore * kBefore));
+  auto* const start = static_cast<std::byte*>(::operator new (kBefore + size, std::align_val_t{kBefore}, std::nothrow));
   if (start == nullptr) return nullptr;
   std::memcpy(start, &size, sizeof(size));
   return start + kBefore;
 }
 
 void release(void* /*user*/, void* block) {
-  if (block != nullptr) std::free(static_cast<std::byte*>(block) - kBefore);
+  if (block != nullptr) ::operator delete (static_cast<std::byte*>(block) - kBefore, std::align_val_t{kBefore});
 }
 
 void* reallocate(void* user, void* block, std::size_t size, std::size_t alignment, VkSystemAllocationScope scope) {

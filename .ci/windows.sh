@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs what the tests of walr on Windows need (tests/windows): MinGW, Wine, and LLVM's tools for Visual Studio's ABI. Without
+# these packages, the tests are skipped.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source .ci/setup.sh
+
+walr_packages=(g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 wine wine64 googletest lld llvm xvfb)
+walr_setup
