@@ -148,7 +148,7 @@ class Reporter {
     std::string whyNot;
     for (const Variant& variant : options_.variants) {
       try {
-        whyNot = whyTooLarge(device, variant, extent);
+        whyNot = whyTooLarge(device, variant, extent, false);
       } catch (const std::invalid_argument& error) {
         whyNot = error.what();
       }

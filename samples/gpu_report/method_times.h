@@ -60,10 +60,28 @@ struct TimingEffort {
   LoopLength timed;
 };
 
-/// Whether a method with its input frames fits into the largest heap of the device's own memory, by the plan's sizes.
+/// What a method with its input frames takes, in bytes.
+struct MemoryNeeded {
+  double making = 0.0;   ///< Of the machine's memory, before, to make the frames.
+  double machine = 0.0;  ///< Of the machine's memory: the frames and the buffers from which they are uploaded.
+  double device = 0.0;   ///< Of the device's memory.
+};
+
+/// What there is, in bytes.
+struct MemoryThere {
+  double device = 0.0;            ///< The largest heap of the device's own memory.
+  bool shared = false;            ///< The device's memory is the machine's, as that of software and integrated devices.
+  std::optional<double> machine;  ///< What is free of the machine's memory, if known.
+};
+
+/// @returns an empty text, or what does not fit
+std::string whyTooLarge(const MemoryNeeded& needed, const MemoryThere& there);
+
+/// Whether a method with its input frames fits into memory, by the plan's sizes.
+/// @param framesMade whether the frames lie in memory already
 /// @returns an empty text, or what does not fit
 /// @throws std::invalid_argument naming a setting of the method that does not support the size
-std::string whyTooLarge(const GpuDevice& device, const Variant& variant, fg::Extent extent);
+std::string whyTooLarge(const GpuDevice& device, const Variant& variant, fg::Extent extent, bool framesMade);
 
 /// Time a method. What keeps it from running, such as a size that does not fit into memory, is reported in `whyNot`.
 /// @param machines nothing: no estimates

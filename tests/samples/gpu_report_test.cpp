@@ -7,6 +7,7 @@
 #include "samples/gpu_report/agreement.h"
 #include "samples/gpu_report/clocks.h"
 #include "samples/gpu_report/gpu_report_page.h"
+#include "samples/gpu_report/machine_memory.h"
 #include "samples/gpu_report/method_times.h"
 #include "tests/error_text.h"
 #include "tests/samples/temporary_directory.h"
@@ -20,6 +21,32 @@ using test::TemporaryDirectory;
 void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
   std::ofstream(file) << text;
+}
+
+TEST(MachineMemory, IsWhatTheKernelCallsAvailable) {
+  const TemporaryDirectory folder;
+  write(folder.path() / "meminfo",
+        "MemTotal:       24731748 kB\nMemFree: 7 kB\nMemAvailable:        3 kB\nBuffers: 9 kB\n");
+  EXPECT_EQ(freeMachineMemory(folder.path() / "meminfo"), 3 * 1024);
+  write(folder.path() / "other", "MemTotal: 1 kB\n");
+  EXPECT_FALSE(freeMachineMemory(folder.path() / "other").has_value());
+  EXPECT_FALSE(freeMachineMemory(folder.path() / "absent").has_value());
+}
+
+TEST(MachineMemory, HoldsWhatADeviceSharesWithIt) {
+  constexpr double kMebi = 1U << 20U;
+  const MemoryNeeded needed{.making = 40 * kMebi, .machine = 20 * kMebi, .device = 30 * kMebi};
+  const auto text = [&](MemoryThere there) { return whyTooLarge(needed, there); };
+  EXPECT_EQ(text({.device = 29 * kMebi, .shared = false, .machine = 99 * kMebi}),
+            "needs 30 MiB of device memory, and the device has 29 MiB");
+  EXPECT_EQ(text({.device = 30 * kMebi, .shared = false, .machine = 40 * kMebi}), "");
+  EXPECT_EQ(text({.device = 30 * kMebi, .shared = false, .machine = 39 * kMebi}),
+            "needs 40 MiB of the machine's memory, of which 39 MiB are free");
+  EXPECT_EQ(text({.device = 99 * kMebi, .shared = true, .machine = 50 * kMebi}), "");
+  EXPECT_EQ(
+      text({.device = 99 * kMebi, .shared = true, .machine = 49 * kMebi}),
+      "needs 30 MiB of device memory and 20 MiB beside it, both of the machine's memory, of which 49 MiB are free");
+  EXPECT_EQ(text({.device = 99 * kMebi, .shared = true, .machine = std::nullopt}), "");
 }
 
 TEST(Clocks, AreThoseOfTheNamedLineOfNvidiaSmi) {

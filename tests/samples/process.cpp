@@ -39,6 +39,10 @@ std::string readAll(int file) {
     const rlimit limit{*options.largestFileBytes, *options.largestFileBytes};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (options.addressSpaceBytes) {
+    const rlimit limit{*options.addressSpaceBytes, *options.addressSpaceBytes};
+    setrlimit(RLIMIT_AS, &limit);
+  }
   std::vector<char*> list;
   for (const std::string& argument : arguments) {
     // execv takes pointers to non-const for historical reasons; it does not write.

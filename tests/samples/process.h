@@ -28,8 +28,9 @@ inline constexpr int kDevice = 4;
 inline constexpr int kOutput = 5;
 
 struct ProcessOptions {
-  std::map<std::string, std::string> environment;  ///< Added to the environment of this process.
-  std::optional<std::uint64_t> largestFileBytes;   ///< RLIMIT_FSIZE.
+  std::map<std::string, std::string> environment;    ///< Added to the environment of this process.
+  std::optional<std::uint64_t> largestFileBytes{};   ///< RLIMIT_FSIZE.
+  std::optional<std::uint64_t> addressSpaceBytes{};  ///< RLIMIT_AS.
 };
 
 /// Run a program to its end.

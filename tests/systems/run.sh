@@ -62,7 +62,7 @@ as_user=(chroot "$root" sudo -u user -H env -i HOME=/home/user USER=user LANG=C.
 failed=0 summary=()
 for command in "$@"; do
   [ -n "$command" ] || continue
-  log=$root.$(tr -c 'a-zA-Z0-9\n' '_' <<<"$command").log
+  log=$root.$(tr -c 'a-zA-Z0-9\n' '_' <<<"${command::40}").log
   echo "Running $command in $system; output: $log"
   code=0 start=$SECONDS
   "${as_user[@]}" "$command" >"$log" 2>&1 </dev/null || code=$?
