@@ -118,7 +118,7 @@ TEST_F(GpuReportProgramTest, SaysWhatIsMissing) {
 }
 
 TEST_F(GpuReportProgramTest, LeavesOutWhatIsTooLargeOrTooLate) {
-  // To a software device, all of the machine's memory may be its own. These frames take 60 GiB there.
+  // To a software device, all of the machine's memory may be its own. These frames take 56 GiB there.
   test::ProcessOptions options;
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // These take more addresses than that themselves.
   options.addressSpaceBytes = std::uint64_t{48} << 30U;
