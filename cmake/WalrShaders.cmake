@@ -164,6 +164,8 @@ inline constexpr const fg::Shader* kAll[] = {@all@};
 }  // namespace @ARG_NAMESPACE@
 ]])
   walr_library(${name} SOURCES ${sources} "${header}")
+  # Most of the time goes into the header, so some shaders share a source.
+  set_target_properties(walr_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
   if(WALR_RELOAD_SHADERS)
     file(CONFIGURE OUTPUT "${generated}/commands.txt" CONTENT "${command_lines}" @ONLY)
     set_target_properties(walr_${name} PROPERTIES WALR_SHADER_COMMANDS "${generated}/commands.txt")

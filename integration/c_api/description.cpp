@@ -106,10 +106,9 @@ std::size_t checkedLightCount(const WalrDenoiserInfo& info) {
   }
   for (std::size_t i = count; i < kMostLights; ++i) {
     if (info.*kPresets.at(i) == nullptr) continue;
-    throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                "WalrDenoiserInfo::second_preset is given, but there is one light: set "
-                "light_count to " +
-                    std::to_string(i + 1));
+    throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::" + std::string(kLightNames.at(i).images) +
+                                                 "preset is given, but light_count is " + std::to_string(count) +
+                                                 ": set it to " + std::to_string(i + 1));
   }
   return count;
 }
