@@ -3,6 +3,9 @@
 #include <csignal>
 #include <iostream>
 #include <new>
+#include <string_view>
+
+#include <unistd.h>
 
 #include "samples/command_line/exit_code.h"
 
@@ -18,11 +21,23 @@ int endOf(const CLI::App& program, int code) {
   return static_cast<int>(ExitCode::Output);
 }
 
+/// Mesa 25 keeps the memory of its software device in a file without a name. Where that may not grow, memory that the
+/// driver has handed out is not there, and the program is sent this signal where it touches it.
+void endWithoutMemory(int /*signal*/) {
+  constexpr std::string_view kText =
+      "out of memory: a driver's or a library's memory lies in a file that cannot grow; "
+      "is there a limit on the size of files (ulimit -f)?\n";
+  // In a handler of signals, only calls of the operating system are safe.
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText.data(), kText.size());
+  _exit(static_cast<int>(ExitCode::Device));
+}
+
 }  // namespace
 
 int runProgram(CLI::App& program, int argc, char** argv) {
   // Exceeding a file size limit must fail the write, as a full disk does, instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGBUS, endWithoutMemory);
   program.footer(kExitCodeHelp);
   try {
     program.parse(argc, argv);
