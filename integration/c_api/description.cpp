@@ -107,8 +107,8 @@ std::size_t checkedLightCount(const WalrDenoiserInfo& info) {
   for (std::size_t i = count; i < kMostLights; ++i) {
     if (info.*kPresets.at(i) == nullptr) continue;
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::" + std::string(kLightNames.at(i).images) +
-                                                 "preset is given, but light_count is " + std::to_string(count) +
-                                                 ": set it to " + std::to_string(i + 1));
+                                                 "preset is given, but there are fewer lights: set light_count to " +
+                                                 std::to_string(i + 1));
   }
   return count;
 }
@@ -265,10 +265,8 @@ std::string Description::setting(std::string_view name) const {
   for (SettingDescription& setting : describeSettings(settings)) {
     if (setting.name == target.name) return std::move(setting.value);
   }
-  throw Error(WALR_ERROR_INVALID_ARGUMENT, "method '" + methodName_ +
-                                               "' has no setting "
-                                               " + std::string(target.name) + "
-                                               "");
+  throw Error(WALR_ERROR_INVALID_ARGUMENT,
+              "method '" + methodName_ + "' has no setting \"" + std::string(target.name) + "\"");
 }
 
 void Description::usePreset(std::string_view name) {
