@@ -94,7 +94,7 @@ class ShaderReloaderTest : public testing::Test {
   GpuDevice gpu{{.device = "", .validation = true}};
 };
 
-constexpr const char* kShader = "temporal_antialiasing.comp";
+constexpr const char* kShader = "temporal/temporal_antialiasing.comp";
 // The result, but not the history, which is stored before.
 constexpr const char* kResult = "imageStore(outImage, p, vec4(light, 1.0));";
 constexpr const char* kBrighter = "imageStore(outImage, p, vec4(2.0 * light, 1.0));";
