@@ -1,4 +1,4 @@
-# Sourced by tests/run.sh and samples/run.sh. Installs the packages that the project needs, on Debian 12 and Ubuntu
+# Sourced by tests/run.sh and samples/run.sh. Installs the packages that the project needs, on Debian 12 and 13 and Ubuntu
 # 24.04: prints their names, asks no questions, and does nothing if all packages are installed.
 
 walr_packages=(
