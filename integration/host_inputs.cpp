@@ -51,8 +51,8 @@ const std::array<HostInput, 7> kHostInputs{{
 }};
 
 const HostInput* hostInputNamed(std::string_view name) {
-  const auto* found = std::ranges::find(kHostInputs, name, &HostInput::name);
-  return found == kHostInputs.end() ? nullptr : found;
+  const auto found = std::ranges::find(kHostInputs, name, &HostInput::name);
+  return found == kHostInputs.end() ? nullptr : &*found;
 }
 
 void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels) {

@@ -51,7 +51,7 @@ constexpr FormatInfo kUnknown = {VK_FORMAT_UNDEFINED, "unknown", 0};
 }  // namespace
 
 const FormatInfo& formatInfo(VkFormat format) {
-  const auto* const found = std::ranges::find(kFormats, format, &FormatInfo::format);
+  const auto found = std::ranges::find(kFormats, format, &FormatInfo::format);
   return found == kFormats.end() ? kUnknown : *found;
 }
 

@@ -137,14 +137,14 @@ ImageSlot confidenceSlot(std::size_t light) {
 ImageSlot inputSlot(const HostInput& input) {
   if (input.texture == &DenoiserInputs::lighting) return lightingSlot(0);
   if (input.texture == &DenoiserInputs::confidence) return confidenceSlot(0);
-  const auto* shared = std::ranges::find(kSharedMembers, input.texture, &SharedMember::texture);
+  const auto shared = std::ranges::find(kSharedMembers, input.texture, &SharedMember::texture);
   return {
       .prefix = {}, .first = input.name, .given = shared->given, .role = ImageRole::Input, .ofInputs = input.texture};
 }
 
 std::array<ImageSlot, kImageCount> makeSlots() {
   std::array<ImageSlot, kImageCount> slots;
-  auto* slot = slots.begin();
+  auto slot = slots.begin();
   for (const HostInput& input : kHostInputs) *slot++ = inputSlot(input);
   for (std::size_t i = 1; i < kMostLights; ++i) {
     *slot++ = lightingSlot(i);

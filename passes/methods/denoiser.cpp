@@ -159,7 +159,7 @@ constexpr std::array kMethods{
 };
 
 const Method& findMethod(std::string_view name) {
-  const auto* found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == name; });
+  const auto found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == name; });
   if (found == kMethods.end()) {
     throw std::invalid_argument("there is no method \"" + std::string(name) +
                                 "\"; known methods: " + join(denoiserNames()));

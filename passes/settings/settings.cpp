@@ -105,7 +105,7 @@ std::vector<std::string_view> nearNames(std::string_view name, const std::vector
 [[noreturn]] void rejectUnknown(std::string_view name, const std::vector<std::string_view>& known) {
   std::string message = "there is no setting \"" + std::string(name) + "\" here";
   std::string_view meant = name;
-  const auto* former = std::ranges::find(kFormerSettings, name, &FormerSetting::name);
+  const auto former = std::ranges::find(kFormerSettings, name, &FormerSetting::name);
   if (former != kFormerSettings.end()) {
     if (former->now.empty()) throw std::invalid_argument(message + ": " + std::string(former->wayOut));
     message += ": it is called " + std::string(former->now) + " now";
