@@ -1,5 +1,5 @@
-# Finds the headers of JSON for Modern C++ as the target nlohmann_json::nlohmann_json, for toolchain files whose packages' CMake files name a folder that
-# must not be searched (../mingw-w64.cmake).
+# Finds the headers of JSON for Modern C++ as the target nlohmann_json::nlohmann_json, for toolchain files whose packages'
+# CMake files name a folder that must not be searched (../mingw-w64.cmake).
 find_path(nlohmann_json_INCLUDE_DIR nlohmann/json.hpp)
 
 include(FindPackageHandleStandardArgs)
