@@ -15,6 +15,8 @@ from xml.etree import ElementTree
 
 FOLDER = Path(__file__).resolve().parent
 PROJECT = FOLDER.parent.parent
+QUICK = 2
+"""Seconds. CTest starts slow tests first, so the quick ones are a run of their own."""
 
 
 @dataclass(frozen=True)
@@ -120,20 +122,37 @@ class Copy:
         targets = ["--target", *programs] if programs else []
         return self.logged(f"{name}.build", ["cmake", "--build", "build", "-j", str(self.jobs), *targets])
 
+    def seconds(self):
+        """How long each test took in earlier runs, by name, as CTest keeps it."""
+        costs = self.build_folder / "Testing" / "Temporary" / "CTestCostData.txt"
+        rows = [line.split() for line in costs.read_text().split("---")[0].splitlines()] if costs.exists() else []
+        return {row[0]: float(row[2]) for row in rows}
+
     def numbers(self, programs):
-        """CTest's numbers of the tests that run one of the programs; of all tests if none is named."""
+        """CTest's numbers of the quick tests and of the slow ones that run one of the programs; of all tests if none is named."""
         listing = subprocess.run(["ctest", "--test-dir", "build", "--show-only=json-v1"], cwd=self.source, check=True,
                                  capture_output=True).stdout
         wanted = set(programs)
-        tests = enumerate(json.loads(listing)["tests"], 1)
-        return [number for number, test in tests
-                if not wanted or wanted & {os.path.basename(word) for word in test.get("command", [])}]
+        seconds = self.seconds()
+        quick, slow = [], []
+        for number, test in enumerate(json.loads(listing)["tests"], 1):
+            if not wanted or wanted & {os.path.basename(word) for word in test.get("command", [])}:
+                (quick if seconds.get(test["name"], 0) < QUICK else slow).append(number)
+        return quick, slow
 
     def test(self, name, programs, stop):
-        """Runs tests. Returns the failed ones with what happened, and how many ran."""
+        """Runs tests. Returns the failed ones with what happened, and how many ran. Those that tell a fault soon come first."""
+        quick, slow = self.numbers(programs)
+        failed, count = self.run_tests(f"{name}.quick", quick, stop)
+        if slow and not (failed and stop):
+            more, ran = self.run_tests(f"{name}.slow", slow, stop)
+            failed, count = failed + more, count + ran
+        return failed, count
+
+    def run_tests(self, name, numbers, stop):
         report = self.logs / f"{name}.xml"
         report.unlink(missing_ok=True)
-        numbers = ",".join(map(str, self.numbers(programs)))
+        numbers = ",".join(map(str, numbers))
         if not numbers:
             return [], 0
         # 0,0,0 is an empty range.
@@ -184,7 +203,7 @@ def require_clean(copy, results, programs, save):
     failed, count = copy.test("no-fault", [] if "all" in untested else untested, stop=False)
     if failed or not count:
         sys.exit(f"{count} tests ran without a fault, and these fail, so that they tell nothing: {failed}; "
-                 f"see {copy.logs}/no-fault.test.txt")
+                 f"see {copy.logs}")
     print(f"without a fault: all {count} tests pass", flush=True)
     results["passes_without_fault"] = sorted([*results["passes_without_fault"], *untested])
     save()
