@@ -48,15 +48,15 @@ def error(kept, entry, method):
 
 def readme_part(kept, gpu):
     """A small table, its terms, and one plot."""
-    rows = [[f"`{m}`", *(error(kept, entry, m) for entry in kept["entries"]), number(kept["means"][m]["flip"], 3),
+    rows = [[f"`{m}`", number(over_baseline(kept, m)[0], 2), number(kept["means"][m]["flip"], 3),
              number(kept["means"][m]["flicker"], 4), gpu_time(gpu, m), f"{kept['costs'][m]['bytes']:.0f}"] for m in headline(kept)]
     intro = filled(f"{frames_text(kept)}. Measured on {kept['date']} at commit {kept['commit']} by `{COMMAND}`, which renders, denoises and "
                    "scores in less than an hour on two cores, and writes this part.")
     return f"""{intro}
-{table(["method", *(f"RMSE, `{entry}`" for entry in kept["entries"]), "FLIP", "flicker", "GPU time, ms", "bytes per pixel"], rows)}
+{table(["method", f"RMSE over that of `{kept['baseline']}`", "FLIP", "flicker", "GPU time, ms", "bytes per pixel"], rows)}
 * **Method**: each with its default settings, on the same frames. `none` is the noisy input.
-* **RMSE**: root mean square error of the light without albedo, after the tone map x / (1 + x), which gives
-  values from 0 to 1, without the noise of the references; lower is better.
+* **RMSE**: root mean square error of the light without albedo, after the tone map x / (1 + x), without the noise of the references;
+  lower is better. Geometric mean of the ratios of all scenes.
 * **FLIP**: difference that a person would see (Andersson et al. 2020), 0 to 1; lower is better. Mean over the scenes.
 * **Flicker**: how much the error changes from one frame to the next on the same surface point, in the units of RMSE; lower is
   better. Mean over the scenes.
@@ -67,9 +67,9 @@ def readme_part(kept, gpu):
 
 ![RMSE against GPU time](samples/results/images/pareto.png)
 
-*Lower left is better. Grey line: Pareto front. RMSE is relative to that of `{kept['baseline']}`, geometric mean over the scenes.*
+*Lower left is better. Grey line: Pareto front.*
 
-With intervals and presets: [the first page of figures](samples/results/METHODS.md). [Two sequences of Blender
+With scenes, intervals and presets: [the first page of figures](samples/results/METHODS.md). [Two sequences of Blender
 Cycles](samples/results/CYCLES.md), which are not in this repository. Other sizes, scenes and numbers of rays: [all
 results](samples/results/README.md). To measure other frames: [`walr bench`](samples/docs/bench.md).
 """
