@@ -39,7 +39,7 @@ def default_cache():
 
 def chosen(arguments):
     """The entries that a command is about."""
-    known = table.corpus()
+    known = table.figures() if arguments.part == "figures" else table.corpus()
     if arguments.entries:
         names = arguments.entries.split(",")
         unknown = [n for n in names if n not in known]
@@ -47,7 +47,7 @@ def chosen(arguments):
             sys.exit(f"there is no entry {', '.join(unknown)}; known: {', '.join(known)}")
         found = [known[n] for n in names]
     else:
-        found = [e for e in known.values() if arguments.part == "nightly" or e.part == "daily"]
+        found = [e for e in known.values() if arguments.part == "nightly" or e.part == arguments.part]
         found = [e for e in found if arguments.held_back or not e.held_back]
     missing = sorted({str(e.scene) for e in found if not e.scene.exists()})
     if missing:
@@ -57,8 +57,8 @@ def chosen(arguments):
 
 def variants(arguments):
     """Names of everything that is compared, and the options of `walr bench` for it."""
-    slow = () if arguments.part == "nightly" else table.SLOW
-    methods = arguments.methods.split(",") if arguments.methods else [m for m in table.METHODS if m not in slow]
+    of_part = {"daily": [m for m in table.METHODS if m not in table.SLOW], "nightly": table.METHODS, "figures": list(table.TIMES)}
+    methods = arguments.methods.split(",") if arguments.methods else of_part[arguments.part]
     methods = [BASELINE] + [m for m in methods if m != BASELINE]
     options = ["--methods", ",".join(methods)]
     for variant in arguments.variant:
@@ -109,7 +109,7 @@ def judged(arguments, cache, entry, names, options):
         sums, noise = judging.judge(sequence, pictures, frames, names)
         folder.mkdir(parents=True, exist_ok=True)
         results.save_sums(folder / "sums.npz", sums.values)
-        rivals = [m for m in names if m in table.METHODS and m.split(":")[0] not in (BASELINE, *results.UNFILTERED)]
+        rivals = [m for m in names if m in table.TIMES and m.split(":")[0] not in (BASELINE, *results.UNFILTERED)]
         found = places.worst_places(sequence, pictures, frames, names, BASELINE, rivals, 3)
         for index, (_, sheet) in enumerate(found):
             sheet.save(folder / f"place_{index}.png")
@@ -197,7 +197,8 @@ def parse(arguments):
     commands = parser.add_subparsers(dest="command", required=True)
     for name in ("list", "run"):
         command = commands.add_parser(name)
-        command.add_argument("--part", choices=("daily", "nightly"), default="daily", help="nightly is the whole corpus")
+        command.add_argument("--part", choices=tuple(table.LIMITS), default="daily",
+                             help="nightly is the whole corpus; figures are the sequences behind README.md")
         command.add_argument("--entries", help="names of entries, separated by commas, instead of a part")
         command.add_argument("--held-back", action="store_true", help="also the entries that no sweep may look at")
         command.add_argument("--methods", help="METHOD or METHOD:PRESET, separated by commas; default: all, daily without the slowest")

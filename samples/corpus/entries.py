@@ -18,7 +18,7 @@ paths, so that messages about absent files say what to set."""
 
 PATHS_PER_SECOND = 400e3
 """Paths that `walr render` traces in a second on two idle cores. Scenes differ by about a factor of two."""
-LIMITS = {"daily": 20 / 60, "nightly": 10.0}
+LIMITS = {"daily": 20 / 60, "nightly": 10.0, "figures": 1.0}
 """Hours that a part may take on two idle cores."""
 WARM_UP = 8
 """Frames before the first judged one, in which history builds up: the longest history of `walr` is 8 frames."""
@@ -35,7 +35,7 @@ class Entry:
     one_square_in: int  # One in so many squares of 64 x 64 pixels has a reference.
     samples: int = 1  # Per pixel of the noisy frames.
     reference_samples: int = 256  # Per pixel; half of them is one of two independent halves.
-    part: str = "nightly"  # "daily" or "nightly".
+    part: str = "nightly"  # "daily", "nightly" or "figures".
     held_back: bool = False  # No sweep may look at it; it is reported apart.
     camera: str = ""  # The first one if empty.
     seed: int = 0  # Of the noisy frames.
@@ -154,11 +154,27 @@ def corpus():
     return {entry.name: entry for entry in entries}
 
 
-METHODS = {
+def figures():
+    """The entries behind the figures of README.md, by name: scenes of this repository under a sun, a sky and lamps, with leaves, a
+    fence, and objects and a lamp that move."""
+    few = {"part": "figures"}
+    entries = [
+        built_in("kitchen", "kitchen", QHD, (12, 15), 6, **few),
+        built_in("garden", "garden", QHD, (12, 15), 6, **few),
+        built_in("stair", "stair", QHD, (12, 15), 6, **few),
+        built_in("turntable", "turntable", QHD, (28, 31), 6, **few),
+        built_in("fence", "box", QHD, (12, 15), 6, camera="fence", **few),
+    ]
+    return {entry.name: entry for entry in entries}
+
+
+TIMES = {
     "walr": 1.0, "walr:fast": 0.6, "walr_paper": 1.6, "bmfr": 0.9, "svgf": 2.2, "flr": 0.5, "accumulate": 0.2, "none": 0.03,
-    "walr_paper:robust": 1.7, "joint_bilateral": 14.0,
+    "walr_paper:robust": 1.7, "joint_bilateral": 14.0, "flnr": 3.6,
 }
-"""The methods that are compared, with their time on two idle cores as a multiple of that of `walr`."""
+"""Times of methods on two idle cores as multiples of that of `walr`."""
+METHODS = [method for method in TIMES if method != "flnr"]
+"""The methods that the daily and the nightly part compare. Those of the figures are all of TIMES."""
 SLOW = ("walr_paper:robust", "joint_bilateral")
 """Methods that the daily part leaves out."""
 WALR_PIXELS_PER_SECOND = 0.9e6
@@ -168,10 +184,10 @@ JUDGED_PIXELS_PER_SECOND = 0.5e6
 
 
 def bench_seconds(entry, methods):
-    """Seconds to denoise and judge an entry on two idle cores. Methods that are not in METHODS count as `walr`."""
+    """Seconds to denoise and judge an entry on two idle cores. Methods that are not in TIMES count as `walr`."""
     frames = entry.frames[1] - entry.frames[0] + 1
     judged = entry.judged[1] - entry.judged[0] + 1
-    denoised = sum(METHODS.get(method, 1.0) for method in methods) * frames * entry.pixels / WALR_PIXELS_PER_SECOND
+    denoised = sum(TIMES.get(method, 1.0) for method in methods) * frames * entry.pixels / WALR_PIXELS_PER_SECOND
     return denoised + len(methods) * judged * entry.pixels / JUDGED_PIXELS_PER_SECOND
 
 

@@ -8,7 +8,8 @@
     write.py costs FOLDER           records only the bytes, taps and memory of these methods, after a change of no result
     write.py gpu FOLDER             records the times in FOLDER/gpu_report.json
 
-Each of the last four then writes everything anew. samples/corpus/rates.py records what it measures itself. Plots need matplotlib.
+Each of the last four then writes everything anew. figures.py and samples/corpus/rates.py record what they measure themselves. Plots
+need matplotlib.
 Estimated GPU times come from samples/estimate/shader_figures.json, which `cmake --build build --target update_costs` writes.
 """
 import pathlib
@@ -19,6 +20,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE / "writer"), str(HERE.parent / "corpus")]
 import corpus_page
 import cycles_page
+import figures_page
 import gpu_page
 import index_page
 import rate_entries
@@ -46,14 +48,21 @@ def runs():
     return {name: records.load(f"corpus_{name}") for name in records.corpus_names()}
 
 
+def first_run(kept):
+    """The run behind README.md."""
+    found = [run for run in kept.values() if run["part"] == "figures"]
+    return found[0] if found else sys.exit("data/ holds no run of this repository's scenes: samples/results/figures.py measures them")
+
+
 def documents():
     """Text of every document by its file."""
     cycles, gpu, rates = (records.load(name) for name in ("cycles", "gpu", "rates"))
     remarks, kept = records.load("places"), runs()
-    heights = list(kept.values())
-    return {README: replaced(README, cycles_page.readme_part(cycles, gpu)),
+    heights, first = list(kept.values()), first_run(kept)
+    return {README: replaced(README, figures_page.readme_part(first, gpu)),
             GUIDE: replaced(GUIDE, rates_page.primary_hits_table(rates["ratios"])),
-            HERE / "README.md": index_page.page(heights, cycles, gpu, rates),
+            HERE / "README.md": index_page.page(heights, first, cycles, gpu, rates),
+            HERE / "METHODS.md": figures_page.page(first, gpu),
             HERE / "CYCLES.md": cycles_page.page(cycles, gpu),
             HERE / "GPU.md": gpu_page.page(gpu),
             HERE / "RATES.md": rates_page.page(rates),
@@ -77,7 +86,7 @@ def write():
 
     for path, text in documents().items():
         path.write_text(text, encoding="utf-8")
-    plots.pareto(records.load("cycles"), records.load("gpu"))
+    plots.pareto(first_run(runs()), records.load("gpu"))
     plots.sizes(list(runs().values()))
     plots.rates(records.load("rates"))
 

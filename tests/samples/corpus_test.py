@@ -18,10 +18,11 @@ import numpy as np
 WALR = pathlib.Path(sys.argv.pop(1)).resolve()
 os.environ["WALR_BUILD"] = str(WALR.parents[1])
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "samples" / "corpus"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[2] / "samples" / folder) for folder in ("corpus", "results")]
 import corpus
 import corpus_page
 import entries
+import figures
 import intervals
 import judging
 import noise
@@ -77,9 +78,12 @@ class Noise(unittest.TestCase):
 
 class Table(unittest.TestCase):
     def test_parts_fit_their_time(self):
-        for part, held_back in (("daily", False), ("nightly", True)):
-            chosen = [e for e in entries.corpus().values() if part == "nightly" or e.part == part]
-            methods = [m for m in entries.METHODS if part == "nightly" or m not in entries.SLOW]
+        for part, held_back in (("daily", False), ("nightly", True), ("figures", False)):
+            known = entries.figures() if part == "figures" else entries.corpus()
+            chosen = [e for e in known.values() if part == "nightly" or e.part == part]
+            methods = {"daily": [m for m in entries.METHODS if m not in entries.SLOW], "nightly": entries.METHODS,
+                       "figures": entries.TIMES}[part]
+            self.assertTrue(chosen)
             seconds = sum(sum(row[1:]) for row in entries.costs(chosen, methods))
             self.assertLess(seconds / 3600, entries.LIMITS[part], part)
             self.assertEqual(any(e.held_back for e in chosen), held_back)
@@ -94,6 +98,18 @@ class Table(unittest.TestCase):
                 self.assertGreaterEqual(entry.judged[1] - entry.judged[0] + 1, 8, entry.name)
         share = sum(e.held_back for e in every) / len(every)
         self.assertTrue(0.3 < share < 0.37, share)
+
+    def test_the_figures_need_no_file_from_elsewhere(self):
+        every = entries.figures().values()
+        for entry in every:
+            self.assertEqual((entry.scene.parent, entry.size, entry.samples, entry.held_back), (entries.BUILT_IN, (960, 540), 1, False))
+            self.assertTrue(entry.scene.exists(), entry.scene)
+
+        def pictures(entry):
+            return {(entry.scene, entry.camera, entry.size, frame) for frame in range(entry.judged[0], entry.judged[1] + 1)}
+
+        held_back = set().union(*(pictures(e) for e in entries.corpus().values() if e.held_back))
+        self.assertEqual(held_back & set().union(*map(pictures, every)), set())
 
     def test_a_first_look_judges_fewer_frames_of_the_same_noise(self):
         entry = dataclasses.replace(TINY, judged=(12, 19))
@@ -366,6 +382,46 @@ class EndToEnd(unittest.TestCase):
         self.assertTrue(first.samefile(second))
         first, second = ((cache.sequence(e) / "noisy_0003.exr").read_bytes() for e in (TINY, other))
         self.assertNotEqual(first, second)
+
+
+class Figures(unittest.TestCase):
+    """The command behind README.md, with a sequence of 64 x 36 pixels and five methods."""
+
+    def test_measures_records_and_writes_and_does_nothing_twice(self):
+        methods = {"walr": 1.0, "walr_paper": 1.6, "svgf": 2.2, "accumulate": 0.2, "none": 0.03}
+        tiny = dataclasses.replace(TINY, part="figures")
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(entries, "figures", lambda: {"tiny": tiny}), \
+                mock.patch.object(entries, "TIMES", methods), mock.patch.object(judging, "SQUARE", 12):
+            folder = pathlib.Path(folder)
+            for file in records.DATA.glob("*.json"):
+                if not file.name.startswith("corpus_540"):
+                    (folder / file.name).write_bytes(file.read_bytes())
+            with mock.patch.multiple(records, DATA=folder, IMAGES=folder):
+                with contextlib.redirect_stdout(io.StringIO()) as text:
+                    figures.measure(folder / "cache", WALR)
+                kept = records.load("corpus_540")
+                with contextlib.redirect_stdout(io.StringIO()) as again:
+                    figures.measure(folder / "cache", WALR)
+                self.assertEqual(records.load("corpus_540"), kept)
+                documents = {file.relative_to(entries.PROJECT).as_posix(): text for file, text in figures.write.documents().items()}
+            self.assertTrue((folder / "places_540.webp").exists())
+        self.assertRegex(text.getvalue(), r"^about \d+ minutes on two idle cores")
+        self.assertIn("left", text.getvalue())
+        self.assertNotIn("all rendering", again.getvalue())
+        self.assertEqual((kept["part"], list(kept["costs"]), list(kept["means"])), ("figures", list(methods), list(methods)))
+        one = kept["entries"]["tiny"]["methods"]
+        readme, page = documents["README.md"], documents["samples/results/METHODS.md"]
+        for method in ("walr", "svgf", "none"):
+            row = next(line for line in readme.splitlines() if line.startswith(f"| `{method}` |")).split(" | ")
+            self.assertEqual(row[1], f"{one[method]['rmse'][0]:.4f}".removeprefix("0"))
+            self.assertEqual(row[2:4], [f"{kept['means'][method][m]:.{d}f}".removeprefix("0") for m, d in (("flip", 3), ("flicker", 4))])
+            self.assertIn(f"| `{method}` |", page)
+        self.assertNotIn("| `accumulate` |", readme)
+        self.assertIn("| `accumulate` |", page)
+        self.assertIn("    samples/results/figures.py", documents["samples/results/CORPUS_540.md"])
+        self.assertIn("(METHODS.md)", documents["samples/results/README.md"])
+        self.assertIn("| 36 | `tiny` | 1 |", documents["samples/results/SIZES.md"])
+        self.assertEqual(set(figures.write.figures_page.pareto_points(kept, records.load("gpu"))), {"walr", "walr_paper", "svgf"})
 
 
 class Ranking(unittest.TestCase):

@@ -48,7 +48,7 @@ class Check(unittest.TestCase):
             kept["ratios"]["4, 4 hits"]["walr"] = [0.5, 0.4, 0.6]
 
         pages = "samples/results/"
-        self.assertEqual(altered("gpu", time), {"README.md", pages + "README.md", pages + "CYCLES.md", pages + "GPU.md"})
+        self.assertEqual(altered("gpu", time), {"README.md", pages + "README.md", pages + "METHODS.md", pages + "CYCLES.md", pages + "GPU.md"})
         self.assertEqual(altered("corpus_1080", error), {pages + "README.md", pages + "CORPUS_1080.md", pages + "SIZES.md"})
         self.assertEqual(altered("rates", rate), {"integration/docs/advanced.md", pages + "RATES.md"})
 
@@ -67,6 +67,13 @@ class Check(unittest.TestCase):
             with self.assertRaises(SystemExit) as caught:
                 write.replaced(file, "text")
             self.assertIn(str(file), str(caught.exception))
+
+    def test_the_command_behind_the_readme_is_named_where_its_figures_are_missing(self):
+        run = {"part": "figures"}
+        self.assertIs(write.first_run({"360": {"part": "daily"}, "540": run}), run)
+        with self.assertRaises(SystemExit) as caught:
+            write.first_run({"360": {"part": "daily"}})
+        self.assertIn("samples/results/figures.py", str(caught.exception))
 
     def test_other_arguments_are_refused_with_the_manual(self):
         for arguments in (["page"], ["--check", "folder"], ["corpus", "folder"], ["gpu"]):

@@ -1,11 +1,8 @@
-"""The page of the two sequences of Cycles, and the table of README.md, from what `walr bench` measured."""
-import json
+"""The page of the two sequences of Cycles, from what `walr bench` measured."""
+import costs_text
+from markdown_text import indented, listed, number, table
+from records import mean
 
-from gpu_page import gpu_term, gpu_time
-from markdown_text import listed, number, table
-from records import RESULTS, mean
-
-FIGURES_FILE, MACHINES_FILE = (RESULTS.parent / "estimate" / f"{name}.json" for name in ("shader_figures", "machines"))
 LABELS = {"rmse": "RMSE", "ssim": "SSIM", "flip": "FLIP", "flicker": "flicker"}
 DECIMALS = {"rmse": 4, "ssim": 3, "flip": 3, "flicker": 4}
 UNFILTERED = ("accumulate", "none")
@@ -25,39 +22,6 @@ def processor_note(kept):
     return f" This is a processor's time, not a GPU's ({kept['device']})." if kept["software"] else ""
 
 
-def headline(kept):
-    """The methods of README.md, each with its default preset."""
-    return {n: m for n, m in kept["methods"].items() if ":" not in n and n != "accumulate"}
-
-
-def readme_part(kept, gpu):
-    """A small table, its terms, and one plot."""
-    sequences = list(kept["noise"])
-    rows = []
-    for name, method in headline(kept).items():
-        rows.append([f"`{name}`", *(number(method["sequences"][s]["rmse"], 4) for s in sequences),
-                     number(over_sequences(method, "flip"), 3), number(over_sequences(method, "flicker"), 4), gpu_time(gpu, name),
-                     f"{method['bytes']:.0f}"])
-    return (table(["method", *(f"RMSE, `{s}`" for s in sequences), "FLIP", "flicker", "GPU time, ms", "bytes per pixel"], rows) + f"""
-* **Method**: each with its default settings, on the same frames. `none` is the noisy input.
-* **RMSE**: root mean square error of the light without albedo, after the tone map x / (1 + x), which gives
-  values from 0 to 1; lower is better.
-* **FLIP**: difference that a person would see (Andersson et al. 2020), 0 to 1; lower is better. Mean over both sequences.
-* **Flicker**: how much the error changes from one frame to the next on the same surface point, in the units of RMSE; lower is
-  better. Mean over both sequences.
-{gpu_term(gpu)} Spread, larger
-  sizes, passes and bandwidth: [GPU.md](samples/results/GPU.md).
-* **Bytes per pixel**: what the passes of one frame read and write at 1920 x 1080, counted from the compiled graph. It holds on any
-  device. A texel counts once a pass, so the wide window of `joint_bilateral` looks cheap here.
-
-![RMSE against GPU time](samples/results/images/pareto.png)
-
-*Lower left is better. Grey line: Pareto front. RMSE is the mean over both sequences.*
-
-All methods and presets, other sizes, scenes and numbers of rays: [the results](samples/results/README.md).
-""")
-
-
 def standing(runs, baseline, figures):
     """States in which metrics the baseline is best, and how far it is behind in the others; only methods with a spatial filter count."""
     ahead, others = [], []
@@ -72,21 +36,8 @@ def standing(runs, baseline, figures):
     return "; ".join(([f"`{baseline}` has the best {listed(ahead)} of all methods"] if ahead else []) + others)
 
 
-def estimated_times(static):
-    """Estimated GPU time in us by method, from the shaders' static figures."""
-    return {e["variant"]: e["microseconds"] for e in static["estimates"]}
-
-
-def estimate_term(static):
-    gpu = next(m["gpu"] for m in json.loads(MACHINES_FILE.read_text())["machines"] if m["name"] == static["machine"])
-    return f"""* **Estimated GPU time**: microseconds of a frame of {static['width']} x {static['height']} on one GPU, {gpu}.
-  It is an estimate by a static model, and no measurement: for each pass the largest of what the plan's bytes, the instructions and
-  the fetches of the compiled shader, and its waits take at the GPU's peak rates (see `tests/costs/README.md`). It is that of
-  the shaders of this commit, also where the other columns were measured at an earlier one."""
-
-
-def methods_table(kept, static, gpu):
-    estimates = estimated_times(static)
+def methods_table(kept, gpu):
+    estimates = costs_text.estimated_times()
     header = ["method"]
     for sequence in kept["noise"]:
         header += [f"`{sequence}`: RMSE", *list(LABELS.values())[1:]]
@@ -94,10 +45,9 @@ def methods_table(kept, static, gpu):
     for name, method in kept["methods"].items():
         time = times(method)
         rows.append([f"`{name}`", *(number(s[f], DECIMALS[f]) for s in method["sequences"].values() for f in LABELS),
-                     "-" if time is None else f"{time[0]:.2f} ({time[1]:.2f} to {time[2]:.2f})", gpu_time(gpu, name),
-                     number(estimates.get(name), 0), f"{method['bytes']:.0f}",
-                     "-" if method["taps"] is None else f"{method['taps']:.0f}", f"{method['megabytes']:.0f}"])
-    return table(header + ["relative time", "GPU time, ms", "estimated GPU time, us", "bytes per pixel", "taps per pixel", "memory, MB"], rows)
+                     "-" if time is None else f"{time[0]:.2f} ({time[1]:.2f} to {time[2]:.2f})",
+                     *costs_text.cells(name, method, gpu, estimates)])
+    return table([*header, "relative time", *costs_text.HEADINGS], rows)
 
 
 def response_section(kept):
@@ -125,7 +75,6 @@ def response_section(kept):
 
 
 def page(kept, gpu):
-    static = json.loads(FIGURES_FILE.read_text())
     noise = listed(f"{number(v, 4)} on `{s}`" for s, v in kept["noise"].items() if v is not None)
     standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items() if not n.startswith("walr:")}, "walr", list(LABELS)) + ".\n"
                         for s in kept["noise"]) + "  Other presets of `walr` are not counted here.\n"
@@ -139,22 +88,17 @@ def page(kept, gpu):
     return f"""# Methods on frames of Cycles
 
 Written by `samples/results/write.py` from `data/cycles.json`. Two sequences rendered with Blender Cycles, 384 x 216, 1 sample per
-pixel, moving camera; references of 1,400 to 2,100 samples per pixel. Values are means over the frames after the fourth, over pixels
-with a diffuse lobe. A method's name means its default preset; `METHOD:PRESET` names another one.
+pixel, moving camera; references of 1,400 to 2,100 samples per pixel. They are not in this repository: [figures that anyone can
+reproduce](METHODS.md). Values are means over the frames after the fourth, over pixels with a diffuse lobe. A method's name means its default preset; `METHOD:PRESET` names another one.
 
-{methods_table(kept, static, gpu)}
+{methods_table(kept, gpu)}
 * **RMSE**, **SSIM** (structural similarity, Wang et al. 2004; higher is better) and **FLIP** (Andersson et al. 2020, 67 pixels per
   degree) are taken after the tone map x / (1 + x). **Flicker** is the root mean square change of the error in luminance along
   motion, without disocclusions, over the square root of 2: white noise of standard deviation s has flicker s.
   RMSE and flicker are in units of the tone-mapped value, 0 to 1; SSIM and FLIP have no unit.
 * **Relative time**: time of a frame over that of `walr` on the same frame in the same run; median, and in brackets the 5th to the 95th
   percentile; mean over both sequences.{processor_note(kept)}
-{gpu_term(gpu)} More of it: [GPU.md](GPU.md).
-{estimate_term(static)}
-* **Bytes**, **taps** and **memory** are those of the compiled graph at 1920 x 1080 and hold on any device. Bytes: every texel that a
-  pass reads or writes, once. Taps: fetches of light, of its history and of averages of it. Memory: histories and
-  transient textures, which alias each other, without the textures of the host.
-* The references have noise of their own. As an RMSE it is {noise}.
+{costs_text.terms(gpu)}* The references have noise of their own. As an RMSE it is {noise}.
 {standings}
 ![the places of largest error](images/crops.png)
 
@@ -166,7 +110,7 @@ trails, and seams that do not stay with their surface show there.*
 
 At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driver']}, with
 
-    {kept['command']}
+{indented(kept['command'])}
 """ + costs_note(kept)
 
 

@@ -1,5 +1,6 @@
 """The first page of the results: what was measured, and the answers that readers look for first."""
 import corpus_page
+import figures_page
 import gpu_page
 from entries import BUILT_IN
 from markdown_text import filled, indented, listed, number, table, with_interval
@@ -36,11 +37,11 @@ def sizes_section(records):
                    "[Every sequence, and where `walr` is behind](SIZES.md).") + "\n![RMSE by sequence](images/sizes.png)\n")
 
 
-def speed_section(cycles, gpu):
+def speed_section(first, gpu):
     return ("## How long does a frame take, and what does the time buy?\n\n" +
             filled(f"`walr` takes {gpu_page.gpu_time(gpu, 'walr')} ms for a frame of 1920 x 1080 on an {gpu['device']}, and its preset `fast` "
                    f"{gpu_page.gpu_time(gpu, 'walr:fast')} ms. [Times by size and pass](GPU.md). The errors of the plot are those on "
-                   f"{listed(f'`{s}`' for s in cycles['noise'])}, two sequences of Blender Cycles; [all methods on them](CYCLES.md).") +
+                   f"{figures_page.frames_text(first)}. [All methods on them](METHODS.md).") +
             "\n![RMSE against GPU time](images/pareto.png)\n")
 
 
@@ -64,16 +65,17 @@ def measured_section(records, cycles, gpu, rates):
              ("[times on a GPU](GPU.md)", gpu["device"], gpu, gpu["command"])]
     return ("## What was measured\n\n" +
             table(["page", "what", "day", "commit"], [[page, what, kept["date"], kept["commit"]] for page, what, kept, _ in runs]) +
-            "\n" + filled("[Errors by size](SIZES.md) is one table of all errors above but those of Cycles. All are errors of today's "
+            "\n" + filled("[Speed against error](METHODS.md) and the table of the README show the run at 540 lines. "
+                          "[Errors by size](SIZES.md) is one table of all errors above but those of Cycles. All are errors of today's "
                           "defaults: a change of a default measures again, or removes, what is here. The commands, in the order of the "
                           "table:") + "\n" +
             "\n\n".join(indented(command) for *_, command in runs) + "\n")
 
 
-def page(records, cycles, gpu, rates):
-    """records: the runs of the corpus, by height."""
+def page(records, first, cycles, gpu, rates):
+    """records: the runs of the corpus, by height. first: the one behind README.md."""
     return ("# Results\n\n" + filled("Written by `samples/results/write.py` from the figures in `data/`. What each method does: "
                                      "[passes](../../passes/README.md). How errors are made: [corpus](../docs/corpus.md) and "
                                      "[bench](../docs/bench.md). What was tried: [what we learnt](../../passes/LEARNT.md).") + "\n" +
-            "\n".join([errors_section(records[-1]), sizes_section(records), speed_section(cycles, gpu), rates_section(rates),
+            "\n".join([errors_section(records[-1]), sizes_section(records), speed_section(first, gpu), rates_section(rates),
                        measured_section(records, cycles, gpu, rates)]))

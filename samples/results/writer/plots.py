@@ -2,8 +2,7 @@
 import pathlib
 import sys
 
-import cycles_page
-import gpu_page
+import figures_page
 import numpy as np
 import rates_page
 from rate_entries import FINE, rays
@@ -24,12 +23,10 @@ def save(figure, name, dpi, **options):
 
 def pareto(kept, gpu):
     """Error against time on a GPU."""
-    points = {n: (gpu_page.milliseconds(gpu, n), cycles_page.over_sequences(m, "rmse")) for n, m in cycles_page.headline(kept).items()
-              if n not in cycles_page.UNFILTERED and gpu_page.milliseconds(gpu, n)}
     figure, axes = plt.subplots(figsize=(7, 3.6))
-    error_axes(axes, points, COLOURS.__getitem__, list(COLOURS).index, 1.35)
+    error_axes(axes, figures_page.pareto_points(kept, gpu), COLOURS.__getitem__, list(COLOURS).index, 1.35)
     axes.set_xlabel(f"ms a frame of 1920 x 1080, {gpu['device']}")
-    axes.set_ylabel("RMSE after the tone map")
+    axes.set_ylabel(f"RMSE over that of {kept['baseline']}")
     save(figure, "pareto.png", 110, bbox_inches="tight")
 
 

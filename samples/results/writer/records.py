@@ -140,10 +140,10 @@ def place_name(place):
     return f"{place['entry']} {place['frame']}: {place['x']}, {place['y']}"
 
 
-def record_corpus(name, folder, shown_places):
+def record_corpus(name, folder, shown_places, more=None):
     """Takes a run of the corpus from its folder, with the picture of its worst places. Remarks on places that are no longer among
-    the worst are removed."""
-    kept = keep_corpus(json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8")))
+    the worst are removed. more: further figures to keep."""
+    kept = {**keep_corpus(json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))), **(more or {})}
     save(f"corpus_{name}", kept)
     (IMAGES / f"places_{name}.webp").write_bytes((pathlib.Path(folder) / "places.webp").read_bytes())
     remarks, shown = load("places"), [place_name(p) for p in shown_places(kept)]
