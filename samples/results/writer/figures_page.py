@@ -69,9 +69,9 @@ def readme_part(kept, gpu):
 
 *Lower left is better. Grey line: Pareto front.*
 
-With scenes, intervals and presets: [the first page of figures](samples/results/METHODS.md). [Two sequences of Blender
-Cycles](samples/results/CYCLES.md), which are not in this repository. Other sizes, scenes and numbers of rays: [all
-results](samples/results/README.md). To measure other frames: [`walr bench`](samples/docs/bench.md).
+With scenes, intervals and presets: [the first page of figures](samples/results/METHODS.md).
+[Two sequences of Blender Cycles](samples/results/CYCLES.md) are not in this repository. Other sizes, scenes and numbers of rays:
+[all results](samples/results/README.md). To measure other frames: [`walr bench`](samples/docs/bench.md).
 """
 
 
