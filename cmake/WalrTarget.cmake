@@ -9,6 +9,12 @@ function(walr_target target)
   else()
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic $<$<BOOL:${WALR_WARNINGS_AS_ERRORS}>:-Werror>)
   endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # A quarter less compile time: gcc's default collects garbage whenever a source has used another 128 MiB.
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=1000000>)
+    # Joined sources are included by another one, and gcc takes them for headers.
+    target_compile_options(${target} PRIVATE $<$<BOOL:${CMAKE_UNITY_BUILD}>:$<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>>)
+  endif()
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "EXECUTABLE")
     walr_sanitizer_policy(${target})

@@ -20,7 +20,7 @@
 namespace walr {
 namespace {
 
-constexpr VkFormat kColour = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kResultFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// A stage made of a settings struct and the function that declares it.
 template <typename Settings, auto kDeclare>
@@ -102,11 +102,11 @@ std::string_view tapsPort(LightStorage antialiasing) {
 
 /// The target of an output that has the size of an input.
 fg::Texture targetLike(StagePorts& ports, std::string_view output, fg::Texture input) {
-  return ports.target(output, kColour, ports.graph().textureDesc(input).extent);
+  return ports.target(output, kResultFormat, ports.graph().textureDesc(input).extent);
 }
 
 /// The texture between a filter and anti-aliasing, with the name that it has in the whole method.
-fg::Texture filteredLike(StagePorts& ports, fg::Texture input, VkFormat format = kColour) {
+fg::Texture filteredLike(StagePorts& ports, fg::Texture input, VkFormat format = kResultFormat) {
   return ports.graph().texture("filtered", {format, ports.graph().textureDesc(input).extent});
 }
 
@@ -221,7 +221,7 @@ class MethodStage final : public Stage {
   void usePreset(std::string_view name) override { method_->usePreset(name); }
   void declare(StagePorts& ports) override {
     const DenoiserInputs inputs = ports.hostInputs();
-    const fg::Texture target = ports.target(kOutputName, kColour, inputs.extent(ports.graph()));
+    const fg::Texture target = ports.target(kOutputName, kResultFormat, inputs.extent(ports.graph()));
     ports.setOutput(kOutputName, method_->add(ports.graph(), inputs, target));
   }
 

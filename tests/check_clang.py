@@ -10,6 +10,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -25,6 +26,7 @@ vector
 CLI/CLI.hpp glm/glm.hpp glm/gtc/matrix_transform.hpp glm/gtc/type_ptr.hpp gtest/gtest.h nlohmann/json.hpp
 vulkan/vulkan_core.h
 """.split()
+GCC_ONLY = ("--param=", "-Wno-subobject-linkage")
 # A shared header must be compiled with the same flags as the sources. These differ between targets, and no warning depends on
 # them.
 LEFT_OUT = ("-Werror", "-g", "-g1", "-fPIC", "-fPIE", "-fvisibility=hidden", "-pthread", "-DGTEST_HAS_PTHREAD=1")
@@ -32,7 +34,7 @@ LEFT_OUT = ("-Werror", "-g", "-g1", "-fPIC", "-fPIE", "-fvisibility=hidden", "-p
 
 def clang_command(entry, strict):
     """The recorded command with clang as compiler and without output."""
-    words = [word for word in shlex.split(entry["command"]) if word not in LEFT_OUT]
+    words = [word for word in shlex.split(entry["command"]) if word not in LEFT_OUT and not word.startswith(GCC_ONLY)]
     while os.path.basename(words[0]) in ("ccache", "sccache"):
         words = words[1:]
     output = words.index("-o")
@@ -53,6 +55,14 @@ def compile_shared_headers(entry, folder):
     return ["-include-pch", compiled]
 
 
+def apart(entry):
+    """The commands of the sources that an entry joins. Each source is checked by itself, so that it includes what it needs."""
+    if not entry["file"].endswith("_cxx.cxx"):
+        return [entry]
+    sources = re.findall('^#include "(.+)"$', pathlib.Path(entry["file"]).read_text(), re.MULTILINE)
+    return [{**entry, "file": source, "command": entry["command"].replace(entry["file"], source)} for source in sources]
+
+
 def without_repetitions(entries, build):
     """Generated sources are alike, so one of each folder is enough."""
     kept, folders = [], set()
@@ -71,7 +81,7 @@ def main():
     strict = version.split(".")[0] in STRICT_MAJOR_VERSIONS
 
     entries = json.loads((build / "compile_commands.json").read_text())
-    sources = without_repetitions([entry for entry in entries if entry["file"].endswith(".cpp")], build)
+    sources = without_repetitions([source for entry in entries for source in apart(entry) if source["file"].endswith(".cpp")], build)
     if not sources:
         sys.exit("compile_commands.json lists no source")
     with tempfile.TemporaryDirectory() as folder:

@@ -131,7 +131,7 @@ fg::Buffer addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg
 }
 
 /// In the order of `kView` of block_atrous.comp. Views that the regression over pixels also has share its names.
-const std::vector<ViewInfo>& iterationViews() {
+const std::vector<ViewInfo>& blockIterationViews() {
   static const std::vector<ViewInfo> kViews{
       {"edges",
        "Of the pixel's block: step of the nearest edge on the eight traces (one past the last: none), taps lost, W"},
@@ -211,7 +211,7 @@ FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture no
           .dispatch(grid.blocks);
       return pass;
     };
-    grid.graph.offer(iterationViews(), grid.pixels,
+    grid.graph.offer(blockIterationViews(), grid.pixels,
                      [&](const std::string& name) { return declare(name, shaders::blockAtrousView); },
                      {.index = t, .count = iterations});
     const bool last = t + 1 == iterations;

@@ -47,7 +47,7 @@ const fg::Shader& shaderFor(Role role, MomentStorage storage, bool first) {
 }
 
 /// In the order of `kView` of atrous.comp.
-const std::vector<ViewInfo>& iterationViews() {
+const std::vector<ViewInfo>& pixelIterationViews() {
   static const std::vector<ViewInfo> kViews{
       {"edges",
        "Step of the nearest edge on the eight traces (one past the last: none), taps replaced, taps lost",
@@ -169,7 +169,7 @@ fg::Texture addWeightedRegression(StageGraph graph, fg::Buffer frame, fg::Textur
     return declareIteration(graph, name, role, iteration, frame, accumulated, alpha, guides, settings);
   };
   for (;; ++iteration.index, iteration.spacing *= 3) {
-    graph.offer(iterationViews(), extent, [&](const std::string& name) { return declare(name, Role::View); },
+    graph.offer(pixelIterationViews(), extent, [&](const std::string& name) { return declare(name, Role::View); },
                 {.index = iteration.index, .count = settings.iterations});
     const std::string suffix = " " + std::to_string(iteration.index);
     if (iteration.index + 1 == settings.iterations) {

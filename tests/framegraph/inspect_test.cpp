@@ -15,9 +15,8 @@
 namespace fg {
 namespace {
 
-constexpr std::uint64_t kGraphs = 300;
-
 TEST(Inspect, JsonRoundTripsIntoAnyOrderOfRegistration) {
+  constexpr std::uint64_t kGraphs = 300;
   for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
     const Graph graph = test::randomGraph(seed);
     const GraphDesc other = test::shuffled(graph.desc(), seed);

@@ -13,8 +13,6 @@
 namespace fg {
 namespace {
 
-constexpr std::uint64_t kGraphs = 500;
-
 /// A device with sizes that are no multiple of the alignment, with several memory classes, and with pages that buffers
 /// and images must not share.
 class AwkwardModel final : public MemoryModel {
@@ -63,6 +61,7 @@ bool sharePage(const PlannedResource& a, const PlannedResource& b, std::uint64_t
 
 TEST(Placement, KeepsToAlignmentMemoryClassAndGranularity) {
   std::uint64_t mixedPairs = 0;
+  constexpr std::uint64_t kGraphs = 500;
   for (std::uint64_t seed = 1; seed <= kGraphs; ++seed) {
     const Graph graph = test::randomGraph(seed, {4, 24});
     const CompileResult result = compile(graph.desc(), AwkwardModel());

@@ -21,7 +21,7 @@ constexpr std::array kBindings = {
     ShaderBinding{"source", 0, 0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, true, false},
     ShaderBinding{"target", 0, 1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, false, true, VK_FORMAT_R16G16B16A16_SFLOAT}};
 constexpr std::array kConstants = {ShaderConstant{"kRadius", 0}};
-constexpr Shader kFilter = {"filter", {}, kBindings, kConstants, 4, {8, 8, 1}};
+constexpr Shader kBlur = {"filter", {}, kBindings, kConstants, 4, {8, 8, 1}};
 constexpr Shader kOtherFilter = {"other", {}, kBindings, kConstants, 4, {8, 8, 1}};
 
 /// What a host's settings may change.
@@ -30,7 +30,7 @@ struct Settings {
   std::uint32_t radius = 2;
   Extent extent = kColor.extent;
   VkFilter filter = VK_FILTER_NEAREST;
-  const Shader* shader = &kFilter;
+  const Shader* shader = &kBlur;
   bool sideEffects = false;
   ExternalState release = test::kSampled;
 };

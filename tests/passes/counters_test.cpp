@@ -28,15 +28,12 @@ struct InputCounts {
   std::uint64_t nonFiniteNormals = 0;
   std::uint64_t surfaces = 0;
 };
-bool isFinite(glm::dvec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 InputCounts countInput(const HostFrame& frame) {
   InputCounts counts;
   reference::forEachPixel(frame.size(), [&](glm::ivec2 p) {
-    counts.nonFiniteLighting += isFinite(frame.lighting[p]) ? 0 : 1;
+    counts.nonFiniteLighting += reference::isFinite(frame.lighting[p]) ? 0 : 1;
     counts.nonFiniteDepth += std::isfinite(frame.depth[p]) ? 0 : 1;
-    counts.nonFiniteNormals += isFinite(frame.normal[p]) ? 0 : 1;
+    counts.nonFiniteNormals += reference::isFinite(frame.normal[p]) ? 0 : 1;
     counts.surfaces += reference::surfaceAt(frame, p, {}).depth > 0.0 ? 1 : 0;
   });
   return counts;

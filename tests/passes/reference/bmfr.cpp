@@ -39,10 +39,6 @@ constexpr std::array<std::array<int, 2>, 16> kOffsets{{{-14, -14},
                                                        {14, -4},
                                                        {-6, 4}}};
 
-bool isFinite(glm::dvec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Reflect a coordinate at the borders of 0 .. size - 1 until it lies inside.
 int mirrored(int x, int size) {
   while (x < 0 || x >= size) x = x < 0 ? -1 - x : 2 * size - 1 - x;

@@ -17,10 +17,6 @@ constexpr std::size_t kGuides = 8;
 constexpr std::size_t kInverseDepth = 3;
 using GuideVector = Vector<kGuides>;
 
-bool isFinite(glm::dvec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// A pixel of a window: weight, guides x and colour y.
 struct Sample {
   double weight;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <glm/vec2.hpp>
@@ -26,6 +27,11 @@ struct HostFrame {
   SceneDescription scene;
   [[nodiscard]] glm::ivec2 size() const { return depth.size(); }
 };
+
+/// Whether every component is a number.
+inline bool isFinite(glm::dvec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Whether a texel of the lighting belongs to a pixel (walr.h, WalrConventions::light_group).
 inline bool hasLightTexel(const HostFrame& frame, glm::ivec2 p) {

@@ -19,10 +19,6 @@ constexpr double kPositionError = 2.0 * kFloatRoundoff + 2.0 * kInverseError;
 /// Error of a shading normal: a rotation to view space, a sum of three squares and an inverse square root.
 constexpr double kShadingNormalError = 16.0 * kFloatRoundoff;
 
-bool isFinite(glm::dvec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Inverse view depth; 0 outside the image and on sky.
 double inverseDepthAt(const HostFrame& frame, glm::ivec2 p) {
   if (!frame.depth.contains(p)) return 0.0;

@@ -13,10 +13,6 @@
 namespace walr::reference {
 namespace {
 
-bool isFinite(glm::dvec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Edge-stopping functions of depth and normal (Schied et al. 2017, 4.4) between two pixels, the depth one by distance
 /// from the plane of p; 0 where q has no surface.
 double surfaceWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,

@@ -11,10 +11,6 @@
 namespace walr::reference {
 namespace {
 
-bool isFinite(glm::dvec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// How many samples a frame of a history stands for (passes/WALR.md, 2: kappa).
 struct FrameOfHistory {
   double samples = 1.0;
