@@ -31,7 +31,7 @@ std::uint64_t fromEnvironment(const char* variable, std::uint64_t otherwise) {
 /// Seeds of this run: WALR_SEED is the first seed, WALR_GRAPHS the number of graphs.
 struct Seeds {
   std::uint64_t first = fromEnvironment("WALR_SEED", 1);
-  std::uint64_t count = fromEnvironment("WALR_GRAPHS", 100'000);
+  std::uint64_t count = fromEnvironment("WALR_GRAPHS", 20'000);
 };
 
 /// Most graphs are small, so that many can be tried. One in 20 has a medium size, and one in 2,000 is large.

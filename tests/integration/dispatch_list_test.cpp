@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Every, DispatchListFeatures, testing::ValuesIn(features
 
 TEST_F(DispatchListTest, AListOfAnotherSizeTakesOverTheHistory) {
   constexpr Size kSizes[] = {{61, 43}, {64, 45}};
-  constexpr std::size_t kTurns[] = {0, 0, 1, 1, 0};  // By frame.
+  constexpr std::size_t kTurns[] = {0, 0, 1, 0};  // By frame.
   expectTheOpaqueCallAtSizes<list_host::Player>(kSizes, kTurns);
 }
 

@@ -26,7 +26,7 @@ std::uint64_t fromEnvironment(const char* variable, std::uint64_t otherwise) {
 
 const std::uint64_t kFirstSeed = fromEnvironment("WALR_SEED", 1);
 const std::uint64_t kSequences = fromEnvironment("WALR_SEQUENCES", 10'000);
-const std::uint64_t kDeviceSequences = fromEnvironment("WALR_DEVICE_SEQUENCES", 12);
+const std::uint64_t kDeviceSequences = fromEnvironment("WALR_DEVICE_SEQUENCES", 4);
 constexpr std::uint32_t kCalls = 16;
 constexpr std::uint32_t kDeviceCalls = 48;  ///< More, because creating pipelines takes most of the time.
 
