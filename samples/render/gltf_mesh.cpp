@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -20,12 +21,30 @@ std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std
   return found == primitive.attributes.end() ? std::nullopt : std::optional(found->second);
 }
 
-template <typename Values>
-void checkCount(const Values& values, const Mesh& mesh, const std::string& what) {
-  if (values.size() != mesh.positions.size()) {
-    throw SceneError(what + ": has " + std::to_string(values.size()) + " elements for " +
+// Before the attribute is read: a file may claim any number.
+void checkCount(const tinygltf::Model& model, int accessor, const Mesh& mesh, const std::string& what) {
+  const std::size_t count = elementCount(model, accessor, what);
+  if (count != mesh.positions.size()) {
+    throw SceneError(what + ": has " + std::to_string(count) + " elements for " +
                      std::to_string(mesh.positions.size()) + " positions");
   }
+}
+
+// The triangles of a list, strip or fan of vertices (specification, 3.7.2.1).
+std::vector<glm::uvec3> assemble(const std::vector<std::uint32_t>& vertices, int mode, const std::string& name) {
+  const bool list = mode == TINYGLTF_MODE_TRIANGLES;
+  if (list ? vertices.size() % 3 != 0 : vertices.size() < 3) {
+    throw SceneError(name + ": has " + std::to_string(vertices.size()) + " indices, " +
+                     (list ? "which is not a multiple of 3" : "but a strip or fan has at least 3"));
+  }
+  std::vector<glm::uvec3> triangles(list ? vertices.size() / 3 : vertices.size() - 2);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    std::array<std::size_t, 3> corners = {3 * i, 3 * i + 1, 3 * i + 2};
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) corners = {i, i + 1 + i % 2, i + 2 - i % 2};
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN) corners = {i + 1, i + 2, 0};
+    triangles[i] = {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
+  }
+  return triangles;
 }
 
 std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
@@ -38,18 +57,13 @@ std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygl
       indices.push_back(static_cast<std::uint32_t>(i));
     }
   }
-  if (indices.size() % 3 != 0) {
-    throw SceneError(name + ": has " + std::to_string(indices.size()) + " indices, which is not a multiple of 3");
-  }
-  std::vector<glm::uvec3> triangles(indices.size() / 3);
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    if (indices[i] >= vertices) {
-      throw SceneError(name + ": index " + std::to_string(indices[i]) + " exceeds its " + std::to_string(vertices) +
+  for (const std::uint32_t index : indices) {
+    if (index >= vertices) {
+      throw SceneError(name + ": index " + std::to_string(index) + " exceeds its " + std::to_string(vertices) +
                        " vertices");
     }
-    triangles[i / 3][static_cast<glm::length_t>(i % 3)] = indices[i];
   }
-  return triangles;
+  return assemble(indices, primitive.mode, name);
 }
 
 std::vector<glm::vec3> readNormals(const tinygltf::Model& model, int accessor, const std::string& what) {
@@ -90,21 +104,21 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   const Material& material = scene.materials[mesh.material];
 
   if (const std::optional<int> normal = findAttribute(primitive, "NORMAL")) {
+    checkCount(model, *normal, mesh, name + " NORMAL");
     mesh.normals = readNormals(model, *normal, name + " NORMAL");
-    checkCount(mesh.normals, mesh, name + " NORMAL");
   }
   const bool textured = material.baseColorTexture || material.metallicRoughnessTexture || material.emissiveTexture ||
                         material.normalTexture;
   if (const std::optional<int> uv = findAttribute(primitive, "TEXCOORD_0"); uv && textured) {
+    checkCount(model, *uv, mesh, name + " TEXCOORD_0");
     mesh.uvs = readVec2s(model, *uv, name + " TEXCOORD_0");
-    checkCount(mesh.uvs, mesh, name + " TEXCOORD_0");
   } else if (textured) {
     scene.warnings.push_back(name + ": has no TEXCOORD_0 for its textures; they are sampled at the origin");
   }
   if (material.normalTexture && !mesh.uvs.empty() && !mesh.normals.empty()) {
     if (const std::optional<int> tangent = findAttribute(primitive, "TANGENT")) {
+      checkCount(model, *tangent, mesh, name + " TANGENT");
       mesh.tangents = readVec4s(model, *tangent, name + " TANGENT");
-      checkCount(mesh.tangents, mesh, name + " TANGENT");
     } else {
       mesh.tangents = deriveTangents(mesh);
     }
@@ -129,8 +143,11 @@ std::vector<std::vector<std::uint32_t>> convertMeshes(const tinygltf::Model& mod
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = source.primitives[p];
       const std::string name = partName("mesh", i, source.name) + " primitive " + std::to_string(p);
-      if (primitive.mode != TINYGLTF_MODE_TRIANGLES) {
-        scene.warnings.push_back(name + ": only triangle lists are supported; left out");
+      if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        throw SceneError(name + ": there is no mode " + std::to_string(primitive.mode));
+      }
+      if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        scene.warnings.push_back(name + ": points and lines are not supported; left out");
         continue;
       }
       indices[i].push_back(static_cast<std::uint32_t>(scene.meshes.size()));

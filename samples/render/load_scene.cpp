@@ -1,11 +1,11 @@
 #include "samples/render/load_scene.h"
 
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "samples/render/gltf_convert.h"
 #include "samples/render/gltf_file.h"
+#include "samples/render/gltf_json.h"
 #include "samples/render/gltf_limits.h"
 #include "samples/render/load_sky.h"
 #include "samples/render/scene_error.h"
@@ -13,16 +13,9 @@
 namespace walr::render {
 namespace {
 
-void checkExtensions(const tinygltf::Model& model, Scene& scene) {
-  const std::set<std::string> supported = {"KHR_lights_punctual", "KHR_materials_emissive_strength"};
-  for (const std::string& extension : model.extensionsRequired) {
-    if (!supported.contains(extension)) {
-      throw SceneError("it requires the extension " + extension +
-                       ", which is not supported; export the scene without it");
-    }
-  }
+void warnOfIgnoredExtensions(const tinygltf::Model& model, Scene& scene) {
   for (const std::string& extension : model.extensionsUsed) {
-    if (!supported.contains(extension)) {
+    if (!gltf::isSupported(extension)) {
       scene.warnings.push_back("the extension " + extension + " is ignored");
     }
   }
@@ -39,7 +32,7 @@ void checkContent(Scene& scene) {
     }
   }
   if (!triangles) {
-    throw SceneError("its default scene has no triangles");
+    throw SceneError("its default scene has no triangles; points and lines are not supported");
   }
   if (!emission) {
     scene.warnings.emplace_back(kNoLightWarning);
@@ -58,7 +51,7 @@ Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& 
     const tinygltf::Model model = gltf::readModel(file, contents);
     Scene scene;
     scene.skyMap = std::move(skyMap);
-    checkExtensions(model, scene);
+    warnOfIgnoredExtensions(model, scene);
     gltf::checkUses(model);
     gltf::convertMaterials(model, gltf::convertTextures(model, scene), scene);
     gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);

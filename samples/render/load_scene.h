@@ -17,15 +17,15 @@ inline constexpr std::string_view kNoLightWarning =
 /// @param sky  file of an equirectangular sky (see `loadSky`) that replaces the scene's own; may be empty
 /// @param contents  takes in the bytes of all files that are read; may be null
 ///
-/// Supported: the default scene's nodes, triangle meshes (float attributes; normalised integer texture coordinates),
-/// base colour, metallic, emissive and normal textures of TEXCOORD_0, alpha mode MASK, perspective cameras, LINEAR and
-/// STEP animation of translation, rotation and scale, KHR_lights_punctual, KHR_materials_emissive_strength, and a
-/// constant sky in `scenes[i].extras.sky_radiance`. Light units are radiometric: directional intensity is irradiance
-/// on a plane facing the light, point and spot intensity is radiant intensity, emission is radiance.
-/// `Scene::warnings` lists what the file holds beyond that.
-/// @throws SceneError naming the file and the part that is missing, truncated, malformed or larger than a limit: 2 GiB
-///         per file and 4 GiB in all; 16384 texels a side and 1 GiB of texels in all; 2^27 vertices, indices and keys;
-///         2^26 triangles
+/// Supported: the default scene's nodes, meshes of triangles (lists, strips and fans; floats and integers of
+/// KHR_mesh_quantization, sparse accessors), base colour, metallic, emissive and normal textures of TEXCOORD_0, alpha
+/// mode MASK, perspective cameras, LINEAR and STEP animation of translation, rotation and scale, KHR_lights_punctual,
+/// KHR_materials_emissive_strength, and a constant sky in `scenes[i].extras.sky_radiance`. Light units are radiometric:
+/// directional intensity is irradiance on a plane facing the light, point and spot intensity is radiant intensity,
+/// emission is radiance. `Scene::warnings` lists what the file holds beyond that.
+/// @throws SceneError naming the file and the part that is missing, damaged, required but not supported, or
+///         larger than a limit: 2 GiB per file and 4 GiB in all; JSON of 128 levels and 2^25 values; 16384 texels a
+///         side and 1 GiB of texels in all; 2^27 vertices, indices and keys, 2^22 without a buffer view; 2^26 triangles
 Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky = {},
                 Fingerprint* contents = nullptr);
 

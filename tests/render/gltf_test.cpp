@@ -185,7 +185,7 @@ TEST_F(Gltf, WarnsOfUnsupportedFeatures) {
   expectWarning(boxWith([](Json& json) { json["extensionsUsed"].push_back("KHR_materials_clearcoat"); }),
                 "KHR_materials_clearcoat");
   expectWarning(boxWith([](Json& json) { json["materials"][0]["alphaMode"] = "BLEND"; }), "alpha mode BLEND");
-  expectWarning(boxWith([](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 1; }), "only triangle lists");
+  expectWarning(boxWith([](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 1; }), "points and lines");
   expectWarning(boxWith([](Json& json) {
                   json["cameras"][0] = {{"type", "orthographic"},
                                         {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 9}, {"znear", 1}}}};
@@ -207,8 +207,8 @@ TEST_F(Gltf, MissingImageGivesAWarning) {
 
 TEST_F(Gltf, DamagedOrOversizedImageGivesAWarning) {
   expectWarning(boxWith([](Json& json) { json["images"][0]["bufferView"] = 2; }), "not a PNG or JPEG image");
-  // A PNG file of 20000 x 8 texels whose data are empty. Newer versions of stb read on from the header to the data before they tell
-  // the size.
+  // A PNG file of 20000 x 8 texels whose data are empty. Newer versions of stb read on from the header to the data
+  // before they tell the size.
   write("huge.png", {"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\0\x08\x08\x06\0\0\0\0\0\0\0"
                      "\0\0\0\0IDAT\0\0\0\0\0\0\0\0IEND\0\0\0\0",
                      57});

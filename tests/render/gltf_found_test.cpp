@@ -1,0 +1,228 @@
+// glTF files as they are found: what a file must not require, and what exporters and optimizers write beyond plain
+// lists of floats. Expected values are those of the specification (glTF 2.0.1, Khronos), computed by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <nlohmann/json.hpp>
+
+#include "samples/render/load_scene.h"
+#include "samples/render/scene_error.h"
+#include "tests/error_text.h"
+#include "tests/render/gltf_builder.h"
+#include "tests/samples/temporary_directory.h"
+
+namespace walr::render {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using test::GltfBuilder;
+
+const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+class FoundGltf : public testing::Test {
+ protected:
+  [[nodiscard]] Scene load(GltfBuilder& builder) const { return loadScene(builder.write(directory_.path())); }
+  [[nodiscard]] Mesh mesh(GltfBuilder& builder) const { return load(builder).meshes.at(0); }
+
+  void expectError(GltfBuilder& builder, const std::string& text) const {
+    fg::test::expectError<SceneError>([&] { static_cast<void>(load(builder)); }, {text, "built.gltf"});
+  }
+
+  walr::test::TemporaryDirectory directory_;
+};
+
+// All of these also have what the parser refuses, an index accessor that does not exist.
+TEST_F(FoundGltf, NamesWhatIsRequiredBeforeTheParserRefuses) {
+  const struct {
+    const char* pointer;
+    Json value;
+    const char* text;
+  } cases[] = {
+      {"/asset/version", "1.0", "asset.version is '1.0'"},
+      {"/asset/minVersion", "2.1", "asset.minVersion is '2.1'"},
+      {"/extensionsRequired", {"KHR_lights_punctual", "ACME_gizmo"}, "requires the extension ACME_gizmo"},
+      {"/extensionsRequired", {"KHR_texture_basisu"}, "requires the extension KHR_texture_basisu"},
+  };
+  for (const auto& [pointer, value, text] : cases) {
+    GltfBuilder builder;
+    builder.positions(kTriangle);
+    builder.primitive()["indices"] = 99;
+    builder.json[Json::json_pointer(pointer)] = value;
+    expectError(builder, text);
+  }
+  GltfBuilder later;  // May be read as 2.0, says 3.2.
+  later.positions(kTriangle);
+  later.json["asset"]["version"] = "2.1";
+  EXPECT_EQ(mesh(later).triangles.size(), 1U);
+}
+
+TEST_F(FoundGltf, NamesWhatAContainerLacks) {
+  const auto refuse = [&](std::uint32_t version, std::string text, const std::string& part) {
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string glb = "glTF";
+    const auto word = [&](std::size_t value) {
+      const auto narrow = static_cast<std::uint32_t>(value);
+      glb.append(reinterpret_cast<const char*>(&narrow), sizeof narrow);
+    };
+    word(version);
+    word(20 + text.size() + 12);
+    word(text.size());
+    glb += "JSON" + text;
+    word(4);
+    glb += std::string("BIN\0", 4) + "data";
+    const fs::path file = directory_.path() / "built.glb";
+    std::ofstream(file, std::ios::binary) << glb;
+    fg::test::expectError<SceneError>([&] { loadScene(file); }, {part});
+  };
+  refuse(1, "{}", "GLB container has version 1");
+  // Each of these buffers would be a copy of the file's bytes.
+  refuse(2, R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4},{"byteLength":4}]})", "buffer 1: has no uri");
+}
+
+TEST_F(FoundGltf, AssemblesListsStripsAndFans) {
+  const struct {
+    int mode;
+    std::vector<glm::uvec3> expected;  // 3.7.2.1
+  } cases[] = {{4, {{0, 1, 2}}}, {5, {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}}, {6, {{1, 2, 0}, {2, 3, 0}, {3, 4, 0}}}};
+  for (const auto& [mode, expected] : cases) {
+    GltfBuilder builder;
+    builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0});
+    builder.primitive()["mode"] = mode;
+    if (mode == 4) {
+      builder.primitive()["indices"] = builder.accessor<std::uint8_t>(GltfBuilder::UnsignedByte, "SCALAR", {0, 1, 2});
+    }
+    EXPECT_EQ(mesh(builder).triangles, expected) << mode;
+  }
+  for (const auto& [mode, text] : {std::pair(1, "points and lines"), std::pair(7, "there is no mode 7")}) {
+    GltfBuilder builder;
+    builder.positions(kTriangle);
+    builder.primitive()["mode"] = mode;
+    expectError(builder, text);
+  }
+}
+
+// 3.11: f = max(c / (2^(bits - 1) - 1), -1) or c / (2^bits - 1). KHR_mesh_quantization: also c itself.
+TEST_F(FoundGltf, ReadsIntegerAttributes) {
+  const auto expect = [&](auto type, GltfBuilder::ComponentType componentType, bool normalized, auto raw,
+                          const glm::vec3& expected) {
+    using T = decltype(type);
+    GltfBuilder builder;
+    std::vector<T> values(9, T{0});
+    std::copy(raw.begin(), raw.end(), values.begin());
+    const std::size_t index = builder.accessor<T>(componentType, "VEC3", values);
+    builder.json["accessors"][index]["normalized"] = normalized;
+    builder.primitive()["attributes"]["POSITION"] = index;
+    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.meshes[0].positions[0], expected) << componentType << normalized;
+  };
+  expect(std::int8_t{}, GltfBuilder::Byte, true, std::vector{-128, -127, 127}, {-1, -1, 1});
+  expect(std::uint8_t{}, GltfBuilder::UnsignedByte, true, std::vector{0, 51, 255}, {0, 51.0F / 255.0F, 1});
+  expect(std::int16_t{}, GltfBuilder::Short, true, std::vector{-32768, -32767, 32767}, {-1, -1, 1});
+  expect(std::uint16_t{}, GltfBuilder::UnsignedShort, true, std::vector{0, 13107, 65535}, {0, 13107.0F / 65535.0F, 1});
+  expect(std::int8_t{}, GltfBuilder::Byte, false, std::vector{-128, -1, 127}, {-128, -1, 127});
+  expect(std::uint16_t{}, GltfBuilder::UnsignedShort, false, std::vector{0, 300, 65535}, {0, 300, 65535});
+}
+
+TEST_F(FoundGltf, ReadsRotationsOfNormalisedIntegers) {
+  GltfBuilder builder;
+  builder.positions(kTriangle);
+  const std::size_t times = builder.accessor<float>(GltfBuilder::Float, "SCALAR", {0, 1});
+  // The second one is a half turn about z.
+  const std::size_t keys =
+      builder.accessor<std::int16_t>(GltfBuilder::Short, "VEC4", {0, 0, 0, 32767, 0, 0, -32768, 0});
+  builder.json["accessors"][keys]["normalized"] = true;
+  builder.json["animations"] = {{{"samplers", {{{"input", times}, {"output", keys}}}},
+                                 {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.animation.size(), 1U);
+  EXPECT_EQ(scene.animation[0].values, (std::vector<glm::vec4>{{0, 0, 0, 1}, {0, 0, -1, 0}}));
+}
+
+// 3.6.2.3: elements of a view, or zeros, some of which are replaced.
+TEST_F(FoundGltf, ReadsSparseAccessors) {
+  for (const bool base : {true, false}) {
+    GltfBuilder builder;
+    const std::size_t index = builder.positions(kTriangle);
+    Json& accessor = builder.json["accessors"][index];
+    if (!base) accessor.erase("bufferView");
+    accessor["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", builder.view<std::uint16_t>({0, 2})}, {"componentType", 5123}}},
+        {"values", {{"bufferView", builder.view<float>({9, 9, 9, 7, 8, 9, 4, 5, 6})}, {"byteOffset", 12}}}};
+    EXPECT_EQ(mesh(builder).positions, (std::vector<glm::vec3>{{7, 8, 9}, {base ? 1.0F : 0.0F, 0, 0}, {4, 5, 6}}));
+  }
+}
+
+TEST_F(FoundGltf, ReadsZerosWhereThereIsNoView) {
+  GltfBuilder builder;
+  builder.positions(kTriangle);
+  builder.primitive()["indices"] = builder.zeros(GltfBuilder::UnsignedShort, "SCALAR", 3);
+  EXPECT_EQ(mesh(builder).triangles, (std::vector<glm::uvec3>{{0, 0, 0}}));
+}
+
+TEST_F(FoundGltf, RefusesDamagedSparseAccessors) {
+  const struct {
+    const char* pointer;
+    int value;
+    const char* text;
+  } cases[] = {{"/count", 4, "replaces 4 of 3 elements"},
+               {"/count", -1, "replaces -1 of 3 elements"},
+               {"/count", 2, "do not fit buffer view"},
+               {"/indices/bufferView", 99, "there is no buffer view 99"},
+               {"/indices/byteOffset", 8, "do not fit buffer view"},
+               {"/indices/componentType", 5126, "indices must be unsigned integers"},
+               {"/values/bufferView", 1, "do not fit buffer view"},
+               {"/indices/bufferView", 3, "index 3 exceeds its 3 elements"}};
+  for (const auto& [pointer, value, text] : cases) {
+    GltfBuilder builder;
+    const std::size_t index = builder.positions(kTriangle);
+    Json sparse = {{"count", 1},
+                   {"indices", {{"bufferView", builder.view<std::uint32_t>({2})}, {"componentType", 5125}}},
+                   {"values", {{"bufferView", builder.view<float>({7, 8, 9})}}}};
+    builder.view<std::uint32_t>({3});
+    sparse[Json::json_pointer(pointer)] = value;
+    builder.json["accessors"][index]["sparse"] = sparse;
+    expectError(builder, text);
+  }
+}
+
+// Files of some hundred bytes that would fill gigabytes, were their numbers believed.
+TEST_F(FoundGltf, RefusesMoreZerosThanTheFileCouldMean) {
+  constexpr std::size_t kMany = std::size_t{1} << 31U;
+  GltfBuilder positions;
+  positions.primitive()["attributes"]["POSITION"] = positions.zeros(GltfBuilder::Float, "VEC3", kMany);
+  expectError(positions, "without a buffer view have more than 4194304");
+  GltfBuilder normals;
+  normals.positions(kTriangle);
+  normals.primitive()["attributes"]["NORMAL"] = normals.zeros(GltfBuilder::Float, "VEC3", kMany);
+  expectError(normals, "NORMAL: has 2147483648 elements for 3 positions");
+  GltfBuilder keys;
+  keys.positions(kTriangle);
+  const std::size_t times = keys.accessor<float>(GltfBuilder::Float, "SCALAR", {0});
+  keys.json["animations"] = {
+      {{"samplers", {{{"input", times}, {"output", keys.zeros(GltfBuilder::Float, "VEC4", kMany)}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
+  expectError(keys, "has 2147483648 values for 1 times");
+}
+
+TEST_F(FoundGltf, RefusesMoreJsonValuesThanAnySceneHas) {
+  const fs::path file = directory_.path() / "values.gltf";
+  std::string values((std::size_t{1} << 25U) + 1, ',');
+  values.front() = '[';
+  std::ofstream(file) << values;
+  fg::test::expectError<SceneError>([&] { loadScene(file); }, {"values; the limit is 33554432"});
+}
+
+}  // namespace
+}  // namespace walr::render
