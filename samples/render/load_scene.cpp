@@ -3,12 +3,14 @@
 #include <optional>
 #include <utility>
 
+#include "samples/render/default_view.h"
 #include "samples/render/gltf_convert.h"
 #include "samples/render/gltf_file.h"
 #include "samples/render/gltf_json.h"
 #include "samples/render/gltf_limits.h"
 #include "samples/render/load_sky.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/view.h"
 
 namespace walr::render {
 namespace {
@@ -21,11 +23,16 @@ void warnOfIgnoredExtensions(const tinygltf::Model& model, Scene& scene) {
   }
 }
 
-void checkContent(Scene& scene) {
+// Under a constant sky, a white object could not be told from the sky.
+const SkyMap kDefaultSky = {.width = 1, .height = 2, .radiance = {glm::vec3(1.0F), glm::vec3(0.25F)}};
+
+// Most files that people have hold neither camera nor light.
+void completeScene(Scene& scene) {
   bool triangles = false;
-  bool emission = scene.skyMap || scene.skyRadiance != glm::vec3(0.0F);
+  bool emission = false;
+  bool light = scene.skyMap || scene.skyRadiance != glm::vec3(0.0F);
   for (const Node& node : scene.nodes) {
-    emission = emission || node.light.has_value();
+    light = light || node.light.has_value();
     for (const std::uint32_t mesh : node.meshes) {
       triangles = true;
       emission = emission || scene.materials[scene.meshes[mesh].material].emits();
@@ -34,8 +41,15 @@ void checkContent(Scene& scene) {
   if (!triangles) {
     throw SceneError("its default scene has no triangles; points and lines are not supported");
   }
-  if (!emission) {
-    scene.warnings.emplace_back(kNoLightWarning);
+  const bool camera = !cameraNodes(scene).empty();
+  if (!light && !(emission && camera)) {  // Without a camera, what glows is rather a part of an object than a lamp.
+    scene.skyMap = kDefaultSky;
+    scene.warnings.push_back(std::string("the scene has no light") + (emission ? " but what glows" : "") +
+                             ": it is lit by a white sky that is darker below");
+  }
+  if (!camera) {
+    addFramingCamera(scene);
+    scene.warnings.emplace_back("the scene has no camera: one in front of it frames all of it");
   }
 }
 
@@ -56,7 +70,7 @@ Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& 
     gltf::convertMaterials(model, gltf::convertTextures(model, scene), scene);
     gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);
     gltf::checkPlacedTriangles(scene);
-    checkContent(scene);
+    completeScene(scene);
     return scene;
   } catch (const SceneError& error) {
     throw SceneError(file.string() + ": " + error.what());

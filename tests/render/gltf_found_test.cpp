@@ -16,6 +16,9 @@
 
 #include "samples/render/load_scene.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/sky.h"
+#include "samples/render/view.h"
+#include "samples/render/world.h"
 #include "tests/error_text.h"
 #include "tests/render/gltf_builder.h"
 #include "tests/samples/temporary_directory.h"
@@ -222,6 +225,75 @@ TEST_F(FoundGltf, RefusesMoreJsonValuesThanAnySceneHas) {
   values.front() = '[';
   std::ofstream(file) << values;
   fg::test::expectError<SceneError>([&] { loadScene(file); }, {"values; the limit is 33554432"});
+}
+
+// The corners of a box of 2 x 4 x 1 all lie in the picture, and one of them 1 / 1.05 of the way to its edge.
+TEST_F(FoundGltf, ACameraFramesASceneWithoutOne) {
+  GltfBuilder builder;
+  builder.positions({5, 1, -3, 7, 1, -3, 5, 5, -2});
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.warnings.size(), 1U) << testing::PrintToString(scene.warnings);
+  EXPECT_NE(scene.warnings[0].find("no camera"), std::string::npos);
+  const World world(scene);
+  constexpr std::uint32_t kSide = 100;
+  const View view = viewFrom(world, findCamera(scene, ""), kSide, kSide, glm::vec2(0.0F), glm::vec2(0.0F));
+  float largest = 0.0F;
+  for (const float x : {5.0F, 7.0F}) {
+    for (const float y : {1.0F, 5.0F}) {
+      for (const float z : {-3.0F, -2.0F}) {
+        const glm::vec4 point = view.viewFromWorld * glm::vec4(x, y, z, 1.0F);
+        ASSERT_LT(point.z, 0.0F);
+        const glm::vec2 offset = glm::abs(project(view, glm::vec3(point)) - glm::vec2(50.0F));
+        largest = std::max({largest, offset.x, offset.y});
+      }
+    }
+  }
+  EXPECT_NEAR(largest, 50.0F / 1.05F, 1e-3F);
+  // From the front, the right and above.
+  const glm::vec3 eye(glm::inverse(view.viewFromWorld)[3]);
+  EXPECT_GT(eye.x, 7.0F);
+  EXPECT_GT(eye.y, 5.0F);
+  EXPECT_GT(eye.z, -2.0F);
+}
+
+TEST_F(FoundGltf, ASkyLightsASceneWithoutLight) {
+  GltfBuilder builder;
+  builder.positions(kTriangle);
+  builder.json["scenes"][0].erase("extras");
+  builder.json["nodes"].push_back({{"camera", 0}});
+  builder.json["scenes"][0]["nodes"].push_back(1);
+  builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+  const Scene scene = load(builder);
+  const Sky sky(scene);
+  EXPECT_EQ(sky.radiance({0, 1, 0}), glm::vec3(1.0F));
+  EXPECT_EQ(sky.radiance({0, -1, 0}), glm::vec3(0.25F));
+  // Half way between; the polar angle is rounded.
+  EXPECT_NEAR(sky.radiance({1, 0, 0}).x, 0.625F, 1e-6F);
+  ASSERT_EQ(scene.warnings.size(), 1U) << testing::PrintToString(scene.warnings);
+  EXPECT_NE(scene.warnings[0].find("no light"), std::string::npos);
+}
+
+// Without a camera, what glows is rather a part of an object than a lamp.
+TEST_F(FoundGltf, ASkyLightsAGlowingObjectWithoutACamera) {
+  for (const bool camera : {false, true}) {
+    GltfBuilder builder;
+    builder.positions(kTriangle);
+    builder.material() = {{"emissiveFactor", {1, 1, 1}}};
+    builder.json["scenes"][0].erase("extras");
+    if (camera) builder.json["nodes"][0]["camera"] = 0;
+    builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    EXPECT_NE(load(builder).skyMap.has_value(), camera);
+  }
+}
+
+// A file whose vertices all lie in one point has no box to frame.
+TEST_F(FoundGltf, ACameraStandsBeforeASceneWithoutExtent) {
+  GltfBuilder builder;
+  builder.positions(std::vector<float>(9, 2.0F));
+  const Scene scene = load(builder);
+  const World world(scene);
+  const View view = viewFrom(world, findCamera(scene, ""), 4, 4, glm::vec2(0.0F), glm::vec2(0.0F));
+  EXPECT_NEAR(glm::length(glm::vec3(view.viewFromWorld * glm::vec4(2, 2, 2, 1))), 1.0F, 1e-5F);
 }
 
 }  // namespace
