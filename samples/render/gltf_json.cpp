@@ -107,7 +107,8 @@ void checkRequiredExtensions(const Json& required) {
 }  // namespace
 
 bool isSupported(const std::string& extension) {
-  constexpr std::array kAlways = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
+  constexpr std::array kAlways = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+                                  "KHR_texture_transform"};
   return std::ranges::find(kAlways, extension) != kAlways.end() ||
          std::ranges::any_of(kOptional, [&](const OptionalExtension& o) { return o.built && o.name == extension; });
 }

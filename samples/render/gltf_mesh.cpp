@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -78,6 +79,32 @@ std::vector<glm::vec3> readNormals(const tinygltf::Model& model, int accessor, c
   return normals;
 }
 
+// Linear, clamped to 0..1, with alpha 1 if there is none (specification, 3.7.2.1).
+std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& what) {
+  std::vector<glm::vec4> colors;
+  if (model.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3) {
+    for (const glm::vec3& color : readVec3s(model, accessor, what)) colors.emplace_back(color, 1.0F);
+  } else {
+    colors = readVec4s(model, accessor, what);
+  }
+  for (glm::vec4& color : colors) color = glm::clamp(color, 0.0F, 1.0F);
+  return colors;
+}
+
+// Appends the set of coordinates to the mesh.
+void readTextureCoordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                            const TextureCoordinates& coordinates, Mesh& mesh, Scene& scene) {
+  const std::string attribute = "TEXCOORD_" + std::to_string(coordinates.set);
+  std::vector<glm::vec2> uvs(mesh.positions.size(), glm::vec2(0.0F));
+  if (const std::optional<int> uv = findAttribute(primitive, attribute)) {
+    checkCount(model, *uv, mesh, mesh.name + " " + attribute);
+    uvs = readVec2s(model, *uv, mesh.name + " " + attribute);
+  } else {
+    scene.warnings.push_back(mesh.name + ": has no " + attribute + " for its textures; they are sampled at the origin");
+  }
+  for (const glm::vec2& uv : uvs) mesh.uvs.push_back(coordinates.transform * glm::vec3(uv, 1.0F));
+}
+
 Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const std::string& name,
                       Scene& scene) {
   const std::optional<int> position = findAttribute(primitive, "POSITION");
@@ -107,26 +134,23 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
     checkCount(model, *normal, mesh, name + " NORMAL");
     mesh.normals = readNormals(model, *normal, name + " NORMAL");
   }
-  const bool textured = material.baseColorTexture || material.metallicRoughnessTexture || material.emissiveTexture ||
-                        material.normalTexture;
-  if (const std::optional<int> uv = findAttribute(primitive, "TEXCOORD_0"); uv && textured) {
-    checkCount(model, *uv, mesh, name + " TEXCOORD_0");
-    mesh.uvs = readVec2s(model, *uv, name + " TEXCOORD_0");
-  } else if (textured) {
-    scene.warnings.push_back(name + ": has no TEXCOORD_0 for its textures; they are sampled at the origin");
+  for (const TextureCoordinates& coordinates : material.coordinates) {
+    readTextureCoordinates(model, primitive, coordinates, mesh, scene);
   }
-  if (material.normalTexture && !mesh.uvs.empty() && !mesh.normals.empty()) {
+  if (material.normalTexture && !mesh.normals.empty()) {
     if (const std::optional<int> tangent = findAttribute(primitive, "TANGENT")) {
       checkCount(model, *tangent, mesh, name + " TANGENT");
       mesh.tangents = readVec4s(model, *tangent, name + " TANGENT");
     } else {
-      mesh.tangents = deriveTangents(mesh);
+      const std::size_t first = scene.textures[*material.normalTexture].coordinates * mesh.positions.size();
+      mesh.tangents = deriveTangents(mesh, std::span(mesh.uvs).subspan(first, mesh.positions.size()));
     }
   } else if (material.normalTexture) {
-    scene.warnings.push_back(name + ": a normal map needs NORMAL and TEXCOORD_0; it is not used");
+    scene.warnings.push_back(name + ": a normal map needs NORMAL; it is not used");
   }
-  if (findAttribute(primitive, "COLOR_0")) {
-    scene.warnings.push_back(name + ": vertex colours are ignored");
+  if (const std::optional<int> color = findAttribute(primitive, "COLOR_0")) {
+    checkCount(model, *color, mesh, name + " COLOR_0");
+    mesh.colors = readColors(model, *color, name + " COLOR_0");
   }
   if (!primitive.targets.empty()) {
     scene.warnings.push_back(name + ": morph targets are ignored");

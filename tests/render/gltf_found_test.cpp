@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,13 +17,16 @@
 #include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
 
+#include "samples/render/gbuffer.h"
 #include "samples/render/load_scene.h"
 #include "samples/render/scene_error.h"
 #include "samples/render/sky.h"
+#include "samples/render/surface.h"
 #include "samples/render/view.h"
 #include "samples/render/world.h"
 #include "tests/error_text.h"
 #include "tests/render/gltf_builder.h"
+#include "tests/render/scene_builder.h"
 #include "tests/samples/temporary_directory.h"
 
 namespace walr::render {
@@ -294,6 +300,123 @@ TEST_F(FoundGltf, ACameraStandsBeforeASceneWithoutExtent) {
   const World world(scene);
   const View view = viewFrom(world, findCamera(scene, ""), 4, 4, glm::vec2(0.0F), glm::vec2(0.0F));
   EXPECT_NEAR(glm::length(glm::vec3(view.viewFromWorld * glm::vec4(2, 2, 2, 1))), 1.0F, 1e-5F);
+}
+
+// 3.7.2.1: clamped; alpha is 1 if there is none.
+TEST_F(FoundGltf, ReadsVertexColours) {
+  GltfBuilder floats;
+  floats.positions(kTriangle);
+  floats.primitive()["attributes"]["COLOR_0"] =
+      floats.accessor<float>(GltfBuilder::Float, "VEC3", {0, 0.25F, 0.5F, 1, 1, 1, -1, 2, 0});
+  EXPECT_EQ(mesh(floats).colors, (std::vector<glm::vec4>{{0, 0.25F, 0.5F, 1}, {1, 1, 1, 1}, {0, 1, 0, 1}}));
+  GltfBuilder bytes;
+  bytes.positions(kTriangle);
+  const std::size_t index = bytes.accessor<std::uint8_t>(GltfBuilder::UnsignedByte, "VEC4",
+                                                         {0, 51, 102, 153, 255, 255, 255, 255, 0, 0, 0, 0});
+  bytes.json["accessors"][index]["normalized"] = true;
+  bytes.primitive()["attributes"]["COLOR_0"] = index;
+  EXPECT_EQ(mesh(bytes).colors[0], glm::vec4(0.0F, 51.0F, 102.0F, 153.0F) / 255.0F);
+}
+
+Surface surfaceSeen(const World& world) {
+  const View view = viewFrom(world, findCamera(world.scene(), ""), 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
+  return tracePrimary(world, view, 0, 0).surface.value();
+}
+
+// Where the ray meets the triangle, the corners weigh 1/2, 1/4 and 1/4.
+TEST_F(FoundGltf, VertexColoursMultiplyTheBaseColour) {
+  GltfBuilder builder;
+  builder.positions(kTriangle);
+  builder.primitive()["attributes"]["COLOR_0"] =
+      builder.accessor<float>(GltfBuilder::Float, "VEC4", {0, 0.25F, 0.5F, 1, 1, 1, 1, 0, 0, 1, 0, 0});
+  builder.material() = {{"alphaMode", "MASK"},
+                        {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {0.5, 0.5, 1, 1}}}}};
+  builder.json["nodes"].push_back({{"camera", 0}, {"translation", {0.25, 0.25, 1}}});
+  builder.json["scenes"][0]["nodes"].push_back(1);
+  builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+  const Scene scene = load(builder);
+  const Surface surface = surfaceSeen(World(scene));
+  // The position of the hit is rounded, and so are its weights.
+  constexpr float kRoundoff = 1e-6F;
+  EXPECT_NEAR(surface.albedo.x, 0.5F * 0.25F, kRoundoff);
+  EXPECT_NEAR(surface.albedo.y, 0.5F * 0.625F, kRoundoff);
+  EXPECT_NEAR(surface.albedo.z, 0.5F, kRoundoff);
+  // Alpha is the weight of the first corner; below 0.5 there is a hole.
+  EXPECT_FALSE(isHole(scene, scene.meshes[0], 0, {0.2F, 0.25F}));
+  EXPECT_TRUE(isHole(scene, scene.meshes[0], 0, {0.3F, 0.25F}));
+}
+
+// The first coordinates lie in the black texel, the second ones in the white one.
+TEST(TextureCoordinates, AreThoseOfTheTexture) {
+  test::SceneBuilder builder;
+  builder.quad(builder.material(glm::vec3(1.0F)), {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  builder.camera({0, 0, 1}, {0, 0, 0});
+  Scene& scene = builder.scene();
+  scene.images.push_back({.name = "", .width = 2, .height = 1, .rgba = {0, 0, 0, 0, 255, 255, 255, 255}});
+  scene.materials[0].coordinates = {{.set = 0}, {.set = 1}};
+  scene.meshes[0].uvs.assign(4, {0.25F, 0.5F});
+  scene.meshes[0].uvs.insert(scene.meshes[0].uvs.end(), 4, {0.75F, 0.5F});
+  for (const std::uint32_t coordinates : {0U, 1U}) {
+    scene.textures = {{.coordinates = coordinates}};
+    scene.materials[0].baseColorTexture = 0;
+    EXPECT_EQ(surfaceSeen(World(scene)).albedo, glm::vec3(static_cast<float>(coordinates)));
+  }
+}
+
+// A PNG file of one white texel.
+const std::vector<std::uint8_t> kPng = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+    0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
+    0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0xf8, 0x0f, 0x00, 0x01, 0x01, 0x01, 0x00,
+    0xb1, 0x38, 0xf6, 0x14, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+// The example of KHR_texture_transform: with these numbers a texture shows the lower left quadrant of its image,
+// turned. Its corners are (0, 0.5), (0.5, 0.5), (0, 1), (0.5, 1), with v down.
+TEST_F(FoundGltf, TexturesHaveTheirOwnCoordinates) {
+  GltfBuilder builder;
+  builder.positions(kTriangle);
+  builder.primitive()["attributes"]["TEXCOORD_0"] =
+      builder.accessor<float>(GltfBuilder::Float, "VEC2", {0, 0, 1, 0, 0, 1});
+  builder.primitive()["attributes"]["TEXCOORD_1"] =
+      builder.accessor<float>(GltfBuilder::Float, "VEC2", {3, 4, 5, 6, 7, 8});
+  builder.json["images"] = {{{"bufferView", builder.view(kPng)}, {"mimeType", "image/png"}}};
+  builder.json["textures"] = {{{"source", 0}}};
+  const Json transform = {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}};
+  builder.material() = {
+      {"emissiveTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}},
+      {"pbrMetallicRoughness",
+       {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
+        {"metallicRoughnessTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"texCoord", 1}}}}}}}}}};
+  builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_texture_transform"};
+  const Scene scene = load(builder);
+  ASSERT_EQ(scene.images.size(), 1U) << testing::PrintToString(scene.warnings);
+  const Material& material = scene.materials[0];
+  const Mesh& mesh = scene.meshes[0];
+  const auto expectCoordinates = [&](const std::optional<std::uint32_t>& texture,
+                                     const std::vector<glm::vec2>& expected) {
+    ASSERT_TRUE(texture.has_value());
+    const std::size_t first = scene.textures[*texture].coordinates * mesh.positions.size();
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      // The rotation of the file is rounded to 12 digits, its sine to float.
+      EXPECT_NEAR(mesh.uvs.at(first + i).x, expected[i].x, 1e-6F);
+      EXPECT_NEAR(mesh.uvs.at(first + i).y, expected[i].y, 1e-6F);
+    }
+  };
+  expectCoordinates(material.baseColorTexture, {{3, 4}, {5, 6}, {7, 8}});
+  expectCoordinates(material.metallicRoughnessTexture, {{3, 4}, {5, 6}, {7, 8}});
+  expectCoordinates(material.emissiveTexture, {{0, 1}, {0, 0.5F}, {0.5F, 1}});
+  EXPECT_EQ(mesh.uvs.size(), 6U) << "textures at the same coordinates share them";
+}
+
+TEST_F(FoundGltf, NamesTheExtensionThatAnImageNeeds) {
+  GltfBuilder builder;
+  builder.positions(kTriangle);
+  builder.json["images"] = {{{"uri", "picture.ktx2"}}};
+  builder.json["textures"] = {{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
+  const std::vector<std::string> warnings = load(builder).warnings;
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& warning) {
+    return warning.find("texture 0: its image needs the extension KHR_texture_basisu") != std::string::npos;
+  })) << testing::PrintToString(warnings);
 }
 
 }  // namespace
