@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "samples/render/default_view.h"
+#include "samples/render/gltf_compression.h"
 #include "samples/render/gltf_convert.h"
 #include "samples/render/gltf_file.h"
 #include "samples/render/gltf_json.h"
@@ -62,10 +63,16 @@ Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& 
     if (contents != nullptr) contents->addFile(sky);
   }
   try {
-    const tinygltf::Model model = gltf::readModel(file, contents);
+    tinygltf::Model model = gltf::readModel(file, contents);
     Scene scene;
     scene.skyMap = std::move(skyMap);
     warnOfIgnoredExtensions(model, scene);
+#ifdef WALR_MESHOPT
+    gltf::decodeMeshopt(model);
+#endif
+#ifdef WALR_DRACO
+    gltf::decodeDraco(model);
+#endif
     gltf::checkUses(model);
     gltf::convertMaterials(model, gltf::convertTextures(model, scene), scene);
     gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);

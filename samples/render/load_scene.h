@@ -12,7 +12,7 @@ namespace walr::render {
 /// @param contents  takes in the bytes of all files that are read; may be null
 ///
 /// Supported: the default scene's nodes, meshes of triangles (lists, strips and fans; floats and integers of
-/// KHR_mesh_quantization, sparse accessors), vertex
+/// KHR_mesh_quantization, sparse accessors, KHR_draco_mesh_compression and EXT_meshopt_compression if built), vertex
 /// colours, base colour, metallic, emissive and normal textures (PNG and JPEG, all texture coordinates,
 /// KHR_texture_transform), alpha mode MASK, perspective cameras, LINEAR and STEP animation of translation, rotation and
 /// scale, KHR_lights_punctual, KHR_materials_emissive_strength, and a constant sky in `scenes[i].extras.sky_radiance`.
