@@ -11,6 +11,8 @@ walr_packages=(
   libwebp-dev nlohmann-json3-dev
   # The window of walr-host (optional)
   libglfw3-dev libimgui-dev
+  # Compressed meshes of glTF files (optional)
+  libdraco-dev libmeshoptimizer-dev
   # Tests and benchmarks
   abigail-tools doxygen file graphviz libbenchmark-dev libgtest-dev libxml2-utils libxtst6 python3 python3-jsonschema
   python3-matplotlib python3-skimage xvfb

@@ -24,7 +24,8 @@ endif()
 
 # What is compiled into the programs: the licences are those of the packages of these headers.
 set(compiled_in "")
-foreach(header IN ITEMS glm/glm.hpp CLI/CLI.hpp nlohmann/json.hpp tiny_gltf.h imgui.h stb_image.h vulkan/vulkan.h)
+foreach(header IN ITEMS glm/glm.hpp CLI/CLI.hpp nlohmann/json.hpp tiny_gltf.h imgui.h stb_image.h vulkan/vulkan.h
+    draco/compression/decode.h)
   find_path(folder "${header}" PATH_SUFFIXES stb imgui NO_CACHE)
   if(folder)
     list(APPEND compiled_in "${folder}/${header}")

@@ -24,6 +24,8 @@ void appendMesh(SceneArrays& arrays, const render::Mesh& mesh) {
   data.normals = append(arrays.floats, mesh.normals);
   data.uvs = append(arrays.floats, mesh.uvs);
   data.tangents = append(arrays.floats, mesh.tangents);
+  data.colors = append(arrays.floats, mesh.colors);
+  data.vertices = static_cast<std::uint32_t>(mesh.positions.size());
   data.triangles = static_cast<std::uint32_t>(arrays.indices.size());
   data.material = mesh.material;
   for (const glm::uvec3& triangle : mesh.triangles) {
@@ -59,8 +61,8 @@ void appendImages(SceneArrays& arrays, const render::Scene& scene) {
   for (const render::Texture& texture : scene.textures) {
     const render::Image& image = scene.images[texture.image];
     const auto wraps = static_cast<std::uint32_t>(texture.wrapU) | static_cast<std::uint32_t>(texture.wrapV) << 2U;
-    arrays.textures.push_back(
-        {first[texture.image], image.width, image.height, wraps | (texture.nearest ? kNearest : 0)});
+    arrays.textures.push_back({first[texture.image], image.width, image.height,
+                               wraps | (texture.nearest ? kNearest : 0) | texture.coordinates << kCoordinatesShift});
   }
 }
 

@@ -10,7 +10,7 @@ namespace walr::gpu_render {
 
 /// What of a scene does not change from frame to frame, as the shader reads it.
 struct SceneArrays {
-  std::vector<float> floats;           ///< Positions, normals, texture coordinates and tangents of all meshes.
+  std::vector<float> floats;           ///< Positions, normals and other attributes of all meshes.
   std::vector<std::uint32_t> indices;  ///< Of the triangles of all meshes.
   std::vector<MeshData> meshes;
   std::vector<MaterialData> materials;

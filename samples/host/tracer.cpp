@@ -7,10 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "samples/denoise/frame_output.h"
-#include "samples/host/viewable_scene.h"
 #include "samples/image/exposure.h"
 #include "samples/render/animation.h"
+#include "samples/render/default_view.h"
+#include "samples/render/load_scene.h"
 #include "samples/render/scene_error.h"
 #include "samples/render/sequence_frame.h"
 #include "samples/render/view.h"
@@ -31,7 +34,7 @@ void moveDirect(Image& direct, Image& indirect) {
 }  // namespace
 
 Tracer::Content::Content(const Options& options, bool onDevice)
-    : scene(loadViewableScene(options.scene, options.sky)),
+    : scene(render::loadScene(options.scene, options.sky)),
       camera(render::findCamera(scene, options.camera)),
       world(scene, onDevice ? render::RayCasting::None : render::RayCasting::Embree) {
   if (onDevice && options.gbuffer != render::GBufferMode::FirstHit) {
@@ -80,7 +83,8 @@ double Tracer::lastAnimationFrame() const {
 }
 
 glm::vec4 Tracer::bounds() const {
-  return boundingSphere(content_->scene, content_->world.nodes());
+  const render::Box box = render::boundingBox(content_->scene, content_->world.nodes());
+  return {0.5F * (box.low + box.high), 0.5F * glm::distance(box.low, box.high)};
 }
 
 float Tracer::exposure(double animationFrame) {

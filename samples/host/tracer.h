@@ -65,8 +65,7 @@ class Tracer {
   };
 
   /// @param gpu  traces the frames, must outlive this (see `gpu_render::GpuScene`); null: the processor does
-  /// @throws render::SceneError for a scene that cannot be rendered; one without a camera or light is completed, see
-  ///         `loadViewableScene`
+  /// @throws render::SceneError for a scene that cannot be rendered
   explicit Tracer(const Options& options, const GpuDevice* gpu = nullptr);
 
   /// A scene in the processor's memory, and what a device needs of it.

@@ -46,11 +46,12 @@ AnimationChannel readChannel(const tinygltf::Model& model, const tinygltf::Anima
       throw SceneError(name + " input: times must rise");
     }
   }
-  channel.values = readKeys(model, sampler.output, path, name);
-  if (channel.values.size() != channel.times.size()) {
-    throw SceneError(name + ": has " + std::to_string(channel.values.size()) + " values for " +
-                     std::to_string(channel.times.size()) + " times");
+  if (const std::size_t values = elementCount(model, sampler.output, name + " output");
+      values != channel.times.size()) {
+    throw SceneError(name + ": has " + std::to_string(values) + " values for " + std::to_string(channel.times.size()) +
+                     " times");
   }
+  channel.values = readKeys(model, sampler.output, path, name);
   return channel;
 }
 

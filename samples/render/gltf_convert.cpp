@@ -10,6 +10,12 @@ std::string partName(const std::string& kind, std::size_t index, const std::stri
   return kind + " " + std::to_string(index) + (name.empty() ? "" : " '" + name + "'");
 }
 
+std::size_t readCount(const tinygltf::Value& object, const char* key, const std::string& what) {
+  const int value = object.Has(key) && object.Get(key).IsInt() ? object.Get(key).GetNumberAsInt() : -1;
+  if (value < 0) throw SceneError(what + " " + key + ": must be a number that is not negative");
+  return static_cast<std::size_t>(value);
+}
+
 glm::vec3 readColor(const std::vector<double>& numbers, const std::string& what, Scene& scene) {
   if (numbers.size() < 3) {
     throw SceneError(what + ": must have three numbers");

@@ -37,6 +37,10 @@ void convertAnimation(const tinygltf::Model& model, const std::vector<std::optio
 /// The name of a part of the file in messages, such as "mesh 3 'wall'".
 std::string partName(const std::string& kind, std::size_t index, const std::string& name);
 
+/// A member of an extension that is a number of things or an index.
+/// @throws SceneError if it is missing or negative
+std::size_t readCount(const tinygltf::Value& object, const char* key, const std::string& what);
+
 /// A linear colour from three numbers of a file. Negative components become 0, with a warning that names `what`.
 glm::vec3 readColor(const std::vector<double>& numbers, const std::string& what, Scene& scene);
 

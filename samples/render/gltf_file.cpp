@@ -3,10 +3,14 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "samples/render/gltf_json.h"
 #include "samples/render/scene_error.h"
 
 namespace walr::render::gltf {
@@ -17,10 +21,6 @@ namespace fs = std::filesystem;
 // tinygltf stores file sizes in 32-bit integers.
 constexpr std::uintmax_t kLargestFile = 0x7fffffff;
 constexpr std::uintmax_t kAllFiles = std::uintmax_t{1} << 32U;
-
-// The parser recurses once per level, so that a hostile file could overflow the stack. glTF itself needs about ten
-// levels.
-constexpr int kDeepestNesting = 128;
 
 /// The files of a scene that are read one after the other.
 struct FilesRead {
@@ -52,28 +52,20 @@ std::vector<unsigned char> readWholeFile(const fs::path& file, const FilesRead& 
   return bytes;
 }
 
-void checkNesting(std::string_view json) {
-  int depth = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (inString) {
-      i += c == '\\' ? 1 : 0;
-      inString = c != '"';
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kDeepestNesting) {
-        throw SceneError("its JSON is nested more than " + std::to_string(kDeepestNesting) + " levels deep");
-      }
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-}
-
 bool isBinary(const std::vector<unsigned char>& bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+// The header of a GLB file and of its first chunk, which holds the JSON text (specification, 4.4).
+constexpr std::size_t kHeader = 20;
+constexpr std::size_t kVersionAt = 4;
+constexpr std::size_t kFileLengthAt = 8;
+constexpr std::size_t kChunkLengthAt = 12;
+
+std::uint32_t word(const std::vector<unsigned char>& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, &bytes[at], sizeof value);
+  return value;
 }
 
 // The JSON text: all of a .gltf file, or the first chunk of a .glb file.
@@ -82,17 +74,34 @@ std::string_view jsonText(const std::vector<unsigned char>& bytes) {
   if (!isBinary(bytes)) {
     return text;
   }
-  constexpr std::size_t kHeader = 20;
   if (bytes.size() < kHeader) {
     throw SceneError("truncated: a GLB file has at least 20 bytes, this one has " + std::to_string(bytes.size()));
   }
-  std::uint32_t chunk = 0;
-  std::memcpy(&chunk, &bytes[12], sizeof chunk);
+  if (const std::uint32_t version = word(bytes, kVersionAt); version != 2) {
+    throw SceneError("its GLB container has version " + std::to_string(version) + "; only version 2 is supported");
+  }
+  const std::uint32_t chunk = word(bytes, kChunkLengthAt);
   if (chunk > bytes.size() - kHeader) {
     throw SceneError("truncated: its JSON chunk should have " + std::to_string(chunk) + " bytes, the file has " +
                      std::to_string(bytes.size() - kHeader));
   }
   return text.substr(kHeader, chunk);
+}
+
+// The file with another JSON text.
+std::vector<unsigned char> withJson(const std::vector<unsigned char>& bytes, std::string json) {
+  if (!isBinary(bytes)) return {json.begin(), json.end()};
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::vector<unsigned char> result(bytes.begin(), bytes.begin() + kHeader);
+  result.insert(result.end(), json.begin(), json.end());
+  result.insert(result.end(), bytes.begin() + kHeader + word(bytes, kChunkLengthAt), bytes.end());
+  const auto set = [&](std::size_t at, std::size_t value) {
+    const auto narrow = static_cast<std::uint32_t>(value);
+    std::memcpy(&result[at], &narrow, sizeof narrow);
+  };
+  set(kFileLengthAt, word(bytes, kFileLengthAt) + result.size() - bytes.size());
+  set(kChunkLengthAt, json.size());
+  return result;
 }
 
 // tinygltf calls this for every image. An image with a URI is stored without decoding. An image in a buffer view is not
@@ -127,17 +136,21 @@ std::string samePath(const std::string& path, void* /*user*/) {
   return path;
 }
 
-std::string withoutTrailingNewlines(std::string text) {
-  text.erase(text.find_last_not_of("\n") + 1);
-  return text;
+// Without newlines at its end, and short: the parser quotes data URIs.
+std::string shortened(std::string text) {
+  constexpr std::size_t kLongest = 300;
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
 }  // namespace
 
 tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* contents) {
   FilesRead files{.contents = contents};
-  const std::vector<unsigned char> bytes = readWholeFile(file, files);
-  checkNesting(jsonText(bytes));
+  std::vector<unsigned char> bytes = readWholeFile(file, files);
+  if (std::optional<std::string> json = prepareJson(jsonText(bytes), isBinary(bytes))) {
+    bytes = withJson(bytes, std::move(*json));
+  }
 
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(&keepEncodedImage, nullptr);
@@ -163,8 +176,9 @@ tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* conten
   }
   if (!parsed) {
     throw SceneError("not a valid glTF 2.0 file: " +
-                     (errors.empty() ? "it cannot be parsed" : withoutTrailingNewlines(errors)));
+                     (errors.empty() ? "it cannot be parsed" : shortened(std::move(errors))));
   }
+  restoreAbsentViews(model);
   return model;
 }
 

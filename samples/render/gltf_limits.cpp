@@ -9,8 +9,11 @@
 namespace walr::render::gltf {
 namespace {
 
+constexpr std::uint64_t kMost = std::uint64_t{1} << 27U;
+constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 22U;
+
 // Counts the elements of accessors. A count beyond the file's bytes is capped: it is invalid, and the accessor's reader
-// reports that with a better message.
+// reports that with a better message. Zeros without a buffer view are counted apart.
 class Uses {
  public:
   explicit Uses(const tinygltf::Model& model) : model_(model) {
@@ -20,17 +23,32 @@ class Uses {
   }
 
   void add(int accessor) {
-    if (accessor >= 0 && static_cast<std::size_t>(accessor) < model_.accessors.size()) {
-      total_ += std::min<std::uint64_t>(model_.accessors[static_cast<std::size_t>(accessor)].count, bytes_);
+    if (accessor < 0 || static_cast<std::size_t>(accessor) >= model_.accessors.size()) return;
+    const tinygltf::Accessor& counted = model_.accessors[static_cast<std::size_t>(accessor)];
+    if (counted.bufferView < 0) {
+      zeros_ += std::min(counted.count, kMost + 1);
+    } else {
+      total_ += std::min<std::uint64_t>(counted.count, bytes_);
     }
   }
 
-  [[nodiscard]] std::uint64_t total() const { return total_; }
+  // @throws SceneError if there are too many
+  void check() const {
+    if (total_ > kMost) {
+      throw SceneError("its meshes and animations have " + std::to_string(total_) +
+                       " vertices, indices and keys, counted once for each use; the limit is " + std::to_string(kMost));
+    }
+    if (zeros_ > kMostZeros) {
+      throw SceneError("its accessors without a buffer view have more than " + std::to_string(kMostZeros) +
+                       " vertices, indices and keys, counted once for each use");
+    }
+  }
 
  private:
   const tinygltf::Model& model_;
   std::uint64_t bytes_ = 0;
   std::uint64_t total_ = 0;
+  std::uint64_t zeros_ = 0;
 };
 
 }  // namespace
@@ -51,11 +69,7 @@ void checkUses(const tinygltf::Model& model) {
       }
     }
   }
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 27U;
-  if (uses.total() > kMost) {
-    throw SceneError("its meshes and animations have " + std::to_string(uses.total()) +
-                     " vertices, indices and keys, counted once for each use; the limit is " + std::to_string(kMost));
-  }
+  uses.check();
 }
 
 void checkPlacedTriangles(const Scene& scene) {

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <glm/common.hpp>
 
 #include "samples/render/gltf_accessor.h"
@@ -48,34 +51,66 @@ Wrap convertWrap(int wrap) {
   }
 }
 
-// Finds the textures of one material, and warns of those that cannot be used.
+glm::vec2 pairOf(const tinygltf::Value& object, const std::string& key, const glm::vec2& byDefault) {
+  const tinygltf::Value& value = object.Get(key);
+  if (!value.IsArray() || value.ArrayLen() != 2) return byDefault;
+  return {value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()};
+}
+
+template <typename TextureInfo>
+TextureCoordinates coordinatesOf(const TextureInfo& info) {
+  TextureCoordinates coordinates;
+  coordinates.set = info.texCoord;
+  const auto extension = info.extensions.find("KHR_texture_transform");
+  if (extension == info.extensions.end() || !extension->second.IsObject()) return coordinates;
+  const tinygltf::Value& transform = extension->second;
+  if (transform.Has("texCoord")) coordinates.set = transform.Get("texCoord").GetNumberAsInt();
+  const glm::vec2 offset = pairOf(transform, "offset", glm::vec2(0.0F));
+  const glm::vec2 scale = pairOf(transform, "scale", glm::vec2(1.0F));
+  const auto rotation = static_cast<float>(transform.Get("rotation").GetNumberAsDouble());
+  const float c = std::cos(rotation);
+  const float s = std::sin(rotation);
+  // Scale, then rotation counter-clockwise with v down, then offset.
+  coordinates.transform = glm::mat3x2(glm::vec2(c, -s) * scale.x, glm::vec2(s, c) * scale.y, offset);
+  return coordinates;
+}
+
+// Finds the textures of one material.
 class TextureFinder {
  public:
-  TextureFinder(const OptionalIndices& textures, std::string material, Scene& scene)
-      : textures_(textures), material_(std::move(material)), scene_(scene) {}
+  TextureFinder(const OptionalIndices& textures, std::string name, Material& material, Scene& scene)
+      : textures_(textures), name_(std::move(name)), material_(material), scene_(scene) {}
 
   template <typename TextureInfo>
   std::optional<std::uint32_t> find(const TextureInfo& info, const std::string& use) const {
     if (info.index < 0) {
       return std::nullopt;
     }
-    const std::string what = material_ + " " + use;
+    const std::string what = name_ + " " + use;
     if (static_cast<std::size_t>(info.index) >= textures_.size()) {
       throw SceneError(what + ": there is no texture " + std::to_string(info.index));
     }
-    if (info.texCoord != 0) {
-      scene_.warnings.push_back(what + ": only TEXCOORD_0 is supported; the texture is not used");
-      return std::nullopt;
-    }
-    if (info.extensions.count("KHR_texture_transform") != 0) {
-      scene_.warnings.push_back(what + ": KHR_texture_transform is ignored");
-    }
-    return textures_[static_cast<std::size_t>(info.index)];
+    const std::optional<std::uint32_t> texture = textures_[static_cast<std::size_t>(info.index)];
+    return texture ? std::optional(sampledAt(coordinatesOf(info), *texture)) : std::nullopt;
   }
 
  private:
+  // The texture, or one like it that is sampled at other coordinates.
+  std::uint32_t sampledAt(const TextureCoordinates& coordinates, std::uint32_t texture) const {
+    std::vector<TextureCoordinates>& all = material_.coordinates;
+    const auto found = std::ranges::find(all, coordinates);
+    const auto index = static_cast<std::uint32_t>(found - all.begin());
+    if (found == all.end()) all.push_back(coordinates);
+    if (index == 0) return texture;
+    Texture other = scene_.textures[texture];
+    other.coordinates = index;
+    scene_.textures.push_back(other);
+    return static_cast<std::uint32_t>(scene_.textures.size() - 1);
+  }
+
   const OptionalIndices& textures_;
-  std::string material_;
+  std::string name_;
+  Material& material_;
   Scene& scene_;
 };
 
@@ -120,7 +155,7 @@ Material convertMaterial(const tinygltf::Material& source, const std::string& na
     material.emission =
         readColor(source.emissiveFactor, name + " emissiveFactor", scene) * emissiveStrength(source, name);
   }
-  const TextureFinder finder(textures, name, scene);
+  const TextureFinder finder(textures, name, material, scene);
   material.baseColorTexture = finder.find(pbr.baseColorTexture, "baseColorTexture");
   material.metallicRoughnessTexture = finder.find(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
   material.emissiveTexture = finder.find(source.emissiveTexture, "emissiveTexture");
@@ -142,7 +177,11 @@ OptionalIndices convertTextures(const tinygltf::Model& model, Scene& scene) {
     const tinygltf::Texture& source = model.textures[i];
     indices.emplace_back();
     if (source.source < 0 || static_cast<std::size_t>(source.source) >= images.size()) {
-      scene.warnings.push_back(partName("texture", i, source.name) + ": names no image of the file; it is not used");
+      const std::string name = partName("texture", i, source.name);
+      scene.warnings.push_back(source.extensions.empty()
+                                   ? name + ": names no image of the file; it is not used"
+                                   : name + ": its image needs the extension " + source.extensions.begin()->first +
+                                         ", which is not supported; it is not used");
       continue;
     }
     if (!images[static_cast<std::size_t>(source.source)]) {

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -20,12 +22,30 @@ std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std
   return found == primitive.attributes.end() ? std::nullopt : std::optional(found->second);
 }
 
-template <typename Values>
-void checkCount(const Values& values, const Mesh& mesh, const std::string& what) {
-  if (values.size() != mesh.positions.size()) {
-    throw SceneError(what + ": has " + std::to_string(values.size()) + " elements for " +
+// Before the attribute is read: a file may claim any number.
+void checkCount(const tinygltf::Model& model, int accessor, const Mesh& mesh, const std::string& what) {
+  const std::size_t count = elementCount(model, accessor, what);
+  if (count != mesh.positions.size()) {
+    throw SceneError(what + ": has " + std::to_string(count) + " elements for " +
                      std::to_string(mesh.positions.size()) + " positions");
   }
+}
+
+// The triangles of a list, strip or fan of vertices (specification, 3.7.2.1).
+std::vector<glm::uvec3> assemble(const std::vector<std::uint32_t>& vertices, int mode, const std::string& name) {
+  const bool list = mode == TINYGLTF_MODE_TRIANGLES;
+  if (list ? vertices.size() % 3 != 0 : vertices.size() < 3) {
+    throw SceneError(name + ": has " + std::to_string(vertices.size()) + " indices, " +
+                     (list ? "which is not a multiple of 3" : "but a strip or fan has at least 3"));
+  }
+  std::vector<glm::uvec3> triangles(list ? vertices.size() / 3 : vertices.size() - 2);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    std::array<std::size_t, 3> corners = {3 * i, 3 * i + 1, 3 * i + 2};
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) corners = {i, i + 1 + i % 2, i + 2 - i % 2};
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN) corners = {i + 1, i + 2, 0};
+    triangles[i] = {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
+  }
+  return triangles;
 }
 
 std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
@@ -38,18 +58,13 @@ std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygl
       indices.push_back(static_cast<std::uint32_t>(i));
     }
   }
-  if (indices.size() % 3 != 0) {
-    throw SceneError(name + ": has " + std::to_string(indices.size()) + " indices, which is not a multiple of 3");
-  }
-  std::vector<glm::uvec3> triangles(indices.size() / 3);
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    if (indices[i] >= vertices) {
-      throw SceneError(name + ": index " + std::to_string(indices[i]) + " exceeds its " + std::to_string(vertices) +
+  for (const std::uint32_t index : indices) {
+    if (index >= vertices) {
+      throw SceneError(name + ": index " + std::to_string(index) + " exceeds its " + std::to_string(vertices) +
                        " vertices");
     }
-    triangles[i / 3][static_cast<glm::length_t>(i % 3)] = indices[i];
   }
-  return triangles;
+  return assemble(indices, primitive.mode, name);
 }
 
 std::vector<glm::vec3> readNormals(const tinygltf::Model& model, int accessor, const std::string& what) {
@@ -62,6 +77,32 @@ std::vector<glm::vec3> readNormals(const tinygltf::Model& model, int accessor, c
     normals[i] /= length;
   }
   return normals;
+}
+
+// Linear, clamped to 0..1, with alpha 1 if there is none (specification, 3.7.2.1).
+std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& what) {
+  std::vector<glm::vec4> colors;
+  if (model.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3) {
+    for (const glm::vec3& color : readVec3s(model, accessor, what)) colors.emplace_back(color, 1.0F);
+  } else {
+    colors = readVec4s(model, accessor, what);
+  }
+  for (glm::vec4& color : colors) color = glm::clamp(color, 0.0F, 1.0F);
+  return colors;
+}
+
+// Appends the set of coordinates to the mesh.
+void readTextureCoordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                            const TextureCoordinates& coordinates, Mesh& mesh, Scene& scene) {
+  const std::string attribute = "TEXCOORD_" + std::to_string(coordinates.set);
+  std::vector<glm::vec2> uvs(mesh.positions.size(), glm::vec2(0.0F));
+  if (const std::optional<int> uv = findAttribute(primitive, attribute)) {
+    checkCount(model, *uv, mesh, mesh.name + " " + attribute);
+    uvs = readVec2s(model, *uv, mesh.name + " " + attribute);
+  } else {
+    scene.warnings.push_back(mesh.name + ": has no " + attribute + " for its textures; they are sampled at the origin");
+  }
+  for (const glm::vec2& uv : uvs) mesh.uvs.push_back(coordinates.transform * glm::vec3(uv, 1.0F));
 }
 
 Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const std::string& name,
@@ -90,29 +131,26 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   const Material& material = scene.materials[mesh.material];
 
   if (const std::optional<int> normal = findAttribute(primitive, "NORMAL")) {
+    checkCount(model, *normal, mesh, name + " NORMAL");
     mesh.normals = readNormals(model, *normal, name + " NORMAL");
-    checkCount(mesh.normals, mesh, name + " NORMAL");
   }
-  const bool textured = material.baseColorTexture || material.metallicRoughnessTexture || material.emissiveTexture ||
-                        material.normalTexture;
-  if (const std::optional<int> uv = findAttribute(primitive, "TEXCOORD_0"); uv && textured) {
-    mesh.uvs = readVec2s(model, *uv, name + " TEXCOORD_0");
-    checkCount(mesh.uvs, mesh, name + " TEXCOORD_0");
-  } else if (textured) {
-    scene.warnings.push_back(name + ": has no TEXCOORD_0 for its textures; they are sampled at the origin");
+  for (const TextureCoordinates& coordinates : material.coordinates) {
+    readTextureCoordinates(model, primitive, coordinates, mesh, scene);
   }
-  if (material.normalTexture && !mesh.uvs.empty() && !mesh.normals.empty()) {
+  if (material.normalTexture && !mesh.normals.empty()) {
     if (const std::optional<int> tangent = findAttribute(primitive, "TANGENT")) {
+      checkCount(model, *tangent, mesh, name + " TANGENT");
       mesh.tangents = readVec4s(model, *tangent, name + " TANGENT");
-      checkCount(mesh.tangents, mesh, name + " TANGENT");
     } else {
-      mesh.tangents = deriveTangents(mesh);
+      const std::size_t first = scene.textures[*material.normalTexture].coordinates * mesh.positions.size();
+      mesh.tangents = deriveTangents(mesh, std::span(mesh.uvs).subspan(first, mesh.positions.size()));
     }
   } else if (material.normalTexture) {
-    scene.warnings.push_back(name + ": a normal map needs NORMAL and TEXCOORD_0; it is not used");
+    scene.warnings.push_back(name + ": a normal map needs NORMAL; it is not used");
   }
-  if (findAttribute(primitive, "COLOR_0")) {
-    scene.warnings.push_back(name + ": vertex colours are ignored");
+  if (const std::optional<int> color = findAttribute(primitive, "COLOR_0")) {
+    checkCount(model, *color, mesh, name + " COLOR_0");
+    mesh.colors = readColors(model, *color, name + " COLOR_0");
   }
   if (!primitive.targets.empty()) {
     scene.warnings.push_back(name + ": morph targets are ignored");
@@ -129,8 +167,11 @@ std::vector<std::vector<std::uint32_t>> convertMeshes(const tinygltf::Model& mod
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = source.primitives[p];
       const std::string name = partName("mesh", i, source.name) + " primitive " + std::to_string(p);
-      if (primitive.mode != TINYGLTF_MODE_TRIANGLES) {
-        scene.warnings.push_back(name + ": only triangle lists are supported; left out");
+      if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        throw SceneError(name + ": there is no mode " + std::to_string(primitive.mode));
+      }
+      if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        scene.warnings.push_back(name + ": points and lines are not supported; left out");
         continue;
       }
       indices[i].push_back(static_cast<std::uint32_t>(scene.meshes.size()));

@@ -1,48 +1,56 @@
 #include "samples/render/load_scene.h"
 
 #include <optional>
-#include <set>
 #include <utility>
 
+#include "samples/render/default_view.h"
+#include "samples/render/gltf_compression.h"
 #include "samples/render/gltf_convert.h"
 #include "samples/render/gltf_file.h"
+#include "samples/render/gltf_json.h"
 #include "samples/render/gltf_limits.h"
 #include "samples/render/load_sky.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/view.h"
 
 namespace walr::render {
 namespace {
 
-void checkExtensions(const tinygltf::Model& model, Scene& scene) {
-  const std::set<std::string> supported = {"KHR_lights_punctual", "KHR_materials_emissive_strength"};
-  for (const std::string& extension : model.extensionsRequired) {
-    if (!supported.contains(extension)) {
-      throw SceneError("it requires the extension " + extension +
-                       ", which is not supported; export the scene without it");
-    }
-  }
+void warnOfIgnoredExtensions(const tinygltf::Model& model, Scene& scene) {
   for (const std::string& extension : model.extensionsUsed) {
-    if (!supported.contains(extension)) {
+    if (!gltf::isSupported(extension)) {
       scene.warnings.push_back("the extension " + extension + " is ignored");
     }
   }
 }
 
-void checkContent(Scene& scene) {
+// Under a constant sky, a white object could not be told from the sky.
+const SkyMap kDefaultSky = {.width = 1, .height = 2, .radiance = {glm::vec3(1.0F), glm::vec3(0.25F)}};
+
+// Most files that people have hold neither camera nor light.
+void completeScene(Scene& scene) {
   bool triangles = false;
-  bool emission = scene.skyMap || scene.skyRadiance != glm::vec3(0.0F);
+  bool emission = false;
+  bool light = scene.skyMap || scene.skyRadiance != glm::vec3(0.0F);
   for (const Node& node : scene.nodes) {
-    emission = emission || node.light.has_value();
+    light = light || node.light.has_value();
     for (const std::uint32_t mesh : node.meshes) {
       triangles = true;
       emission = emission || scene.materials[scene.meshes[mesh].material].emits();
     }
   }
   if (!triangles) {
-    throw SceneError("its default scene has no triangles");
+    throw SceneError("its default scene has no triangles; points and lines are not supported");
   }
-  if (!emission) {
-    scene.warnings.emplace_back(kNoLightWarning);
+  const bool camera = !cameraNodes(scene).empty();
+  if (!light && !(emission && camera)) {  // Without a camera, what glows is rather a part of an object than a lamp.
+    scene.skyMap = kDefaultSky;
+    scene.warnings.push_back(std::string("the scene has no light") + (emission ? " but what glows" : "") +
+                             ": it is lit by a white sky that is darker below");
+  }
+  if (!camera) {
+    addFramingCamera(scene);
+    scene.warnings.emplace_back("the scene has no camera: one in front of it frames all of it");
   }
 }
 
@@ -55,15 +63,21 @@ Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& 
     if (contents != nullptr) contents->addFile(sky);
   }
   try {
-    const tinygltf::Model model = gltf::readModel(file, contents);
+    tinygltf::Model model = gltf::readModel(file, contents);
     Scene scene;
     scene.skyMap = std::move(skyMap);
-    checkExtensions(model, scene);
+    warnOfIgnoredExtensions(model, scene);
+#ifdef WALR_MESHOPT
+    gltf::decodeMeshopt(model);
+#endif
+#ifdef WALR_DRACO
+    gltf::decodeDraco(model);
+#endif
     gltf::checkUses(model);
     gltf::convertMaterials(model, gltf::convertTextures(model, scene), scene);
     gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);
     gltf::checkPlacedTriangles(scene);
-    checkContent(scene);
+    completeScene(scene);
     return scene;
   } catch (const SceneError& error) {
     throw SceneError(file.string() + ": " + error.what());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x2.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -25,6 +26,14 @@ enum class DiffuseModel : std::uint8_t {
   Disney,
 };
 
+/// Texture coordinates that a mesh holds for its material.
+struct TextureCoordinates {
+  int set = 0;                  ///< n of the attribute TEXCOORD_n.
+  glm::mat3x2 transform{1.0F};  ///< Of (u, v, 1) in the file (KHR_texture_transform).
+
+  bool operator==(const TextureCoordinates&) const = default;
+};
+
 /// A material of glTF's metallic-roughness model. At metallic 1 it has no diffuse lobe.
 struct Material {
   std::string name;
@@ -40,6 +49,7 @@ struct Material {
   std::optional<std::uint32_t> metallicRoughnessTexture;  ///< Metallic in blue, roughness in green.
   std::optional<std::uint32_t> emissiveTexture;
   std::optional<std::uint32_t> normalTexture;
+  std::vector<TextureCoordinates> coordinates;  ///< Of all its textures; at most one for each.
 
   [[nodiscard]] bool emits() const { return emission.x > 0.0F || emission.y > 0.0F || emission.z > 0.0F; }
 };
@@ -49,7 +59,8 @@ struct Mesh {
   std::string name;
   std::vector<glm::vec3> positions;   ///< Finite.
   std::vector<glm::vec3> normals;     ///< Unit, one per position; empty for flat shading.
-  std::vector<glm::vec2> uvs;         ///< One per position; empty if no texture needs them.
+  std::vector<glm::vec4> colors;      ///< Multiply base colour and alpha, 0..1, one per position; empty if all are 1.
+  std::vector<glm::vec2> uvs;         ///< For each of `Material::coordinates` one per position; empty: all are 0.
   std::vector<glm::vec4> tangents;    ///< xyz unit, w = handedness; empty unless the material has a normal map.
   std::vector<glm::uvec3> triangles;  ///< Indices into `positions`, counter-clockwise seen from the front.
   std::uint32_t material = 0;

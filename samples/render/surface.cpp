@@ -15,24 +15,34 @@ T interpolate(const std::vector<T>& values, const glm::uvec3& triangle, const gl
   return exact::interpolate(values[triangle.x], values[triangle.y], values[triangle.z], barycentric);
 }
 
-glm::vec2 textureCoordinate(const Mesh& mesh, std::uint32_t triangle, const glm::vec2& barycentric) {
-  return mesh.uvs.empty() ? glm::vec2(0.0F) : interpolate(mesh.uvs, mesh.triangles[triangle], barycentric);
-}
+// A point of a mesh where its material is evaluated.
+struct MeshPoint {
+  const Scene& scene;
+  const Mesh& mesh;
+  const glm::uvec3& triangle;
+  const glm::vec2& weights;
 
-glm::vec4 sample(const Scene& scene, std::uint32_t index, const glm::vec2& uv, ColorSpace space) {
-  const Texture& texture = scene.textures[index];
-  return sampleTexture(scene.images[texture.image], texture, uv, space);
-}
+  [[nodiscard]] glm::vec4 color() const {
+    return mesh.colors.empty() ? glm::vec4(1.0F) : interpolate(mesh.colors, triangle, weights);
+  }
 
-void evaluateMaterial(const Scene& scene, const Material& material, const glm::vec2& uv, Surface& surface) {
-  glm::vec3 color = material.baseColor;
+  [[nodiscard]] glm::vec4 sample(std::uint32_t index, ColorSpace space) const {
+    const Texture& texture = scene.textures[index];
+    const auto first = texture.coordinates * static_cast<std::uint32_t>(mesh.positions.size());
+    const glm::vec2 uv = mesh.uvs.empty() ? glm::vec2(0.0F) : interpolate(mesh.uvs, triangle + first, weights);
+    return sampleTexture(scene.images[texture.image], texture, uv, space);
+  }
+};
+
+void evaluateMaterial(const MeshPoint& point, const Material& material, Surface& surface) {
+  glm::vec3 color = material.baseColor * glm::vec3(point.color());
   if (material.baseColorTexture) {
-    color *= glm::vec3(sample(scene, *material.baseColorTexture, uv, ColorSpace::Srgb));
+    color *= glm::vec3(point.sample(*material.baseColorTexture, ColorSpace::Srgb));
   }
   surface.metallic = material.metallic;
   surface.roughness = material.roughness;
   if (material.metallicRoughnessTexture) {
-    const glm::vec4 texel = sample(scene, *material.metallicRoughnessTexture, uv, ColorSpace::Linear);
+    const glm::vec4 texel = point.sample(*material.metallicRoughnessTexture, ColorSpace::Linear);
     surface.roughness *= texel.y;
     surface.metallic *= texel.z;
   }
@@ -41,24 +51,23 @@ void evaluateMaterial(const Scene& scene, const Material& material, const glm::v
 }
 
 // Interpolated normal with the normal map applied, on the front side of the triangle.
-glm::vec3 mappedNormal(const Scene& scene, const Instance& instance, const glm::uvec3& triangle,
-                       const glm::vec2& weights, const glm::vec2& uv, const glm::vec3& frontNormal) {
-  const Mesh& mesh = scene.meshes[instance.mesh];
+glm::vec3 mappedNormal(const MeshPoint& point, const Instance& instance, const glm::vec3& frontNormal) {
+  const Mesh& mesh = point.mesh;
   if (mesh.normals.empty()) {
     return frontNormal;
   }
   const float side = instance.mirrored ? -1.0F : 1.0F;
-  const glm::vec3 inObject = interpolate(mesh.normals, triangle, weights);
+  const glm::vec3 inObject = interpolate(mesh.normals, point.triangle, point.weights);
   const glm::vec3 normal =
       exact::unitOr(side * exact::transformDirection(instance.normalFromObject, inObject), frontNormal);
   if (mesh.tangents.empty()) {
     return normal;
   }
-  const Material& material = scene.materials[mesh.material];
-  const glm::vec4 tangent = interpolate(mesh.tangents, triangle, weights);
+  const Material& material = point.scene.materials[mesh.material];
+  const glm::vec4 tangent = interpolate(mesh.tangents, point.triangle, point.weights);
   const glm::vec3 worldTangent = exact::unitOr(
       exact::transformDirection(glm::mat3(instance.worldFromObject), glm::vec3(tangent)), glm::vec3(0.0F));
-  const glm::vec3 encoded(sample(scene, *material.normalTexture, uv, ColorSpace::Linear));
+  const glm::vec3 encoded(point.sample(*material.normalTexture, ColorSpace::Linear));
   return exact::mapNormal(normal, worldTangent, tangent.w < 0.0F ? -side : side, encoded, material.normalScale);
 }
 
@@ -69,10 +78,10 @@ bool isHole(const Scene& scene, const Mesh& mesh, std::uint32_t triangle, const 
   if (!material.alphaCutoff) {
     return false;
   }
-  float alpha = material.baseAlpha;
+  const MeshPoint point{scene, mesh, mesh.triangles[triangle], barycentric};
+  float alpha = material.baseAlpha * point.color().w;
   if (material.baseColorTexture) {
-    const glm::vec2 uv = textureCoordinate(mesh, triangle, barycentric);
-    alpha *= sample(scene, *material.baseColorTexture, uv, ColorSpace::Linear).w;
+    alpha *= point.sample(*material.baseColorTexture, ColorSpace::Linear).w;
   }
   return alpha < *material.alphaCutoff;
 }
@@ -82,8 +91,8 @@ glm::vec3 emittedRadiance(const Scene& scene, const Mesh& mesh, std::uint32_t tr
   if (!material.emissiveTexture) {
     return material.emission;
   }
-  const glm::vec2 uv = textureCoordinate(mesh, triangle, barycentric);
-  return material.emission * glm::vec3(sample(scene, *material.emissiveTexture, uv, ColorSpace::Srgb));
+  const MeshPoint point{scene, mesh, mesh.triangles[triangle], barycentric};
+  return material.emission * glm::vec3(point.sample(*material.emissiveTexture, ColorSpace::Srgb));
 }
 
 Surface evaluateSurface(const Scene& scene, const Instance& instance, const Hit& hit, const Ray& ray) {
@@ -112,12 +121,12 @@ Surface evaluateSurface(const Scene& scene, const Instance& instance, const Hit&
   const float winding = instance.mirrored ? -1.0F : 1.0F;
   const glm::vec3 frontNormal = exact::frontNormal(corners[0], corners[1], corners[2], winding, -ray.direction);
   const bool front = exact::exactDot(frontNormal, ray.direction) <= 0.0F;
-  const glm::vec2 uv = textureCoordinate(mesh, hit.triangle, weights);
-  const glm::vec3 shading = mappedNormal(scene, instance, triangle, weights, uv, frontNormal);
+  const MeshPoint point{scene, mesh, triangle, weights};
+  const glm::vec3 shading = mappedNormal(point, instance, frontNormal);
   surface.geometricNormal = front ? frontNormal : -frontNormal;
   surface.shadingNormal = exact::facing(front ? shading : -shading, ray.direction, surface.geometricNormal);
   surface.towardsViewer = -ray.direction;
-  evaluateMaterial(scene, material, uv, surface);
+  evaluateMaterial(point, material, surface);
   if (material.emits() && (front || material.doubleSided)) {
     surface.emission = emittedRadiance(scene, mesh, hit.triangle, weights);
   }

@@ -13,11 +13,11 @@ struct TriangleTangent {
   float handedness = 1.0F;
 };
 
-TriangleTangent triangleTangent(const Mesh& mesh, const glm::uvec3& triangle) {
+TriangleTangent triangleTangent(const Mesh& mesh, std::span<const glm::vec2> uvs, const glm::uvec3& triangle) {
   const glm::vec3 edge1 = mesh.positions[triangle.y] - mesh.positions[triangle.x];
   const glm::vec3 edge2 = mesh.positions[triangle.z] - mesh.positions[triangle.x];
-  const glm::vec2 uv1 = mesh.uvs[triangle.y] - mesh.uvs[triangle.x];
-  const glm::vec2 uv2 = mesh.uvs[triangle.z] - mesh.uvs[triangle.x];
+  const glm::vec2 uv1 = uvs[triangle.y] - uvs[triangle.x];
+  const glm::vec2 uv2 = uvs[triangle.z] - uvs[triangle.x];
   const float determinant = uv1.x * uv2.y - uv1.y * uv2.x;
   const glm::vec3 scaled = (edge1 * uv2.y - edge2 * uv1.y) * (determinant < 0.0F ? -1.0F : 1.0F);
   const float length = glm::length(scaled);
@@ -43,11 +43,11 @@ float angleBetween(const glm::vec3& a, const glm::vec3& b) {
 
 }  // namespace
 
-std::vector<glm::vec4> deriveTangents(const Mesh& mesh) {
+std::vector<glm::vec4> deriveTangents(const Mesh& mesh, std::span<const glm::vec2> uvs) {
   std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0.0F));
   std::vector<float> handedness(mesh.positions.size(), 0.0F);
   for (const glm::uvec3& triangle : mesh.triangles) {
-    const TriangleTangent tangent = triangleTangent(mesh, triangle);
+    const TriangleTangent tangent = triangleTangent(mesh, uvs, triangle);
     for (glm::length_t corner = 0; corner < 3; ++corner) {
       const std::uint32_t vertex = triangle[corner];
       const glm::vec3& normal = mesh.normals[vertex];

@@ -22,7 +22,8 @@ enum class Wrap : std::uint8_t { Repeat, ClampToEdge, MirroredRepeat };
 
 /// An image with the way it is sampled.
 struct Texture {
-  std::uint32_t image = 0;  ///< Index into `Scene::images`.
+  std::uint32_t image = 0;        ///< Index into `Scene::images`.
+  std::uint32_t coordinates = 0;  ///< Which of `Material::coordinates` it is sampled at.
   Wrap wrapU = Wrap::Repeat;
   Wrap wrapV = Wrap::Repeat;
   bool nearest = false;  ///< No interpolation (glTF `magFilter` NEAREST).

@@ -217,7 +217,8 @@ INSTANTIATE_TEST_SUITE_P(Shared, SharedDataAgreement,
                            return name.substr(0, name.find('.'));
                          });
 
-// A room with everything that the built-in scenes lack: punctual lights of all kinds, a sky map, a mirrored object.
+// A room with everything that the built-in scenes lack: punctual lights of all kinds, a sky map, a mirrored object,
+// vertex colours, and textures at coordinates of their own.
 render::Scene everything() {
   render::test::SceneBuilder builder;
   const std::uint32_t grey = builder.material({0.7F, 0.6F, 0.5F});
@@ -239,6 +240,15 @@ render::Scene everything() {
   builder.camera({0.0F, 2.0F, 6.0F}, {0.0F, 1.0F, 0.0F});
   render::Scene& scene = builder.scene();
   scene.materials[grey].roughness = 0.8F;
+  scene.images.push_back({"", 2, 1, {255, 128, 64, 255, 32, 64, 255, 255}});
+  scene.textures = {{}, {.coordinates = 1}};
+  scene.materials[grey].baseColorTexture = 1;
+  scene.materials[lamp].emissiveTexture = 1;
+  for (render::Mesh& mesh : scene.meshes) {  // All have four corners.
+    mesh.colors = {{1.0F, 0.5F, 1.0F, 1.0F}, {0.5F, 1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 0.2F, 1.0F}, glm::vec4(1.0F)};
+    mesh.uvs.assign(4, glm::vec2(0.25F));  // Of the first coordinates, which no texture takes.
+    mesh.uvs.insert(mesh.uvs.end(), {{0.0F, 0.0F}, {3.0F, 0.0F}, {3.0F, 1.0F}, {0.0F, 1.0F}});
+  }
   scene.skyMap.emplace();
   scene.skyMap->width = 16;
   scene.skyMap->height = 8;

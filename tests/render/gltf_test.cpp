@@ -185,7 +185,7 @@ TEST_F(Gltf, WarnsOfUnsupportedFeatures) {
   expectWarning(boxWith([](Json& json) { json["extensionsUsed"].push_back("KHR_materials_clearcoat"); }),
                 "KHR_materials_clearcoat");
   expectWarning(boxWith([](Json& json) { json["materials"][0]["alphaMode"] = "BLEND"; }), "alpha mode BLEND");
-  expectWarning(boxWith([](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 1; }), "only triangle lists");
+  expectWarning(boxWith([](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 1; }), "points and lines");
   expectWarning(boxWith([](Json& json) {
                   json["cameras"][0] = {{"type", "orthographic"},
                                         {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 9}, {"znear", 1}}}};
@@ -207,8 +207,8 @@ TEST_F(Gltf, MissingImageGivesAWarning) {
 
 TEST_F(Gltf, DamagedOrOversizedImageGivesAWarning) {
   expectWarning(boxWith([](Json& json) { json["images"][0]["bufferView"] = 2; }), "not a PNG or JPEG image");
-  // A PNG file of 20000 x 8 texels whose data are empty. Newer versions of stb read on from the header to the data before they tell
-  // the size.
+  // A PNG file of 20000 x 8 texels whose data are empty. Newer versions of stb read on from the header to the data
+  // before they tell the size.
   write("huge.png", {"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\0\x08\x08\x06\0\0\0\0\0\0\0"
                      "\0\0\0\0IDAT\0\0\0\0\0\0\0\0IEND\0\0\0\0",
                      57});
@@ -219,16 +219,6 @@ TEST_F(Gltf, DamagedOrOversizedImageGivesAWarning) {
                 "20000 x 8");
 }
 
-TEST_F(Gltf, SceneWithoutLightGivesAWarning) {
-  expectWarning(boxWith([](Json& json) {
-                  json["scenes"][0].erase("extras");
-                  for (Json& material : json["materials"]) {
-                    material.erase("emissiveFactor");
-                  }
-                }),
-                "the scene has no light");
-}
-
 TEST_F(Gltf, RefusesMalformedFiles) {
   expectError(directory_.path() / "none.gltf", "no such file");
   expectError(directory_.path(), "not a regular file");
@@ -237,8 +227,6 @@ TEST_F(Gltf, RefusesMalformedFiles) {
   expectError(write("deep.gltf", std::string(100000, '[')), "nested");
   expectError(write("short.glb", "glTF\2"), "truncated");
   expectError(boxWith([](Json& json) { json.erase("scenes"); }), "scene");
-  expectError(boxWith([](Json& json) { json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }),
-              "KHR_draco_mesh_compression");
   expectError(boxWith([](Json& json) { json["scenes"][0]["nodes"] = Json::array(); }), "no triangles");
 }
 
@@ -342,12 +330,7 @@ TEST_F(Gltf, CameraIsFoundByNameOrRefused) {
     EXPECT_NE(findCamera(scene, ""), findCamera(scene, name));
   }
   fg::test::expectError<SceneError>([&] { findCamera(scene, "other"); }, {"'camera'"});
-  const Scene blind = loadScene(boxWith([](Json& json) {
-    for (Json& node : json["nodes"]) {
-      node.erase("camera");
-    }
-  }));
-  EXPECT_THROW(findCamera(blind, ""), SceneError);
+  EXPECT_THROW(findCamera(Scene{}, ""), SceneError);
 }
 
 // Loads a file and traces a few rays. The file may be refused, but only with a SceneError.

@@ -89,12 +89,11 @@ Candidate fromEmitter(Surface surface, float choice, vec2 point) {
   const float signedCosineAtLight = -dot(normal, direction);
   const float cosineAtLight = (material.flags & kDoubleSided) != 0u ? abs(signedCosineAtLight) : signedCosineAtLight;
   if (cosine <= 0.0 || cosineAtLight <= 0.0 || isHole(instance.mesh, emitter.triangle, weights)) return kNothing;
-  const vec2 uv = textureCoordinate(mesh, cornersOf(mesh, emitter.triangle), weights);
   const float solidAngleDensity = density * distance2 / cosineAtLight;
   const float cosineDensity = cosine / kPi;
   // The ray ends slightly before the light, so that it does not hit the light itself.
   const float kBeforeTheEnd = 1.0 - 1e-4;
-  return Candidate(emittedRadiance(material, uv) *
+  return Candidate(emittedRadiance(material, mesh, cornersOf(mesh, emitter.triangle), weights) *
                        (lobe(surface, direction) * cosineDensity / (solidAngleDensity + cosineDensity)),
                    position - rayOrigin(surface), kBeforeTheEnd);
 }

@@ -15,12 +15,12 @@ WALR_CONSTANT uint kAbsent = 0xffffffffu;  // An index or offset of something th
 struct MeshData {
   uint positions;  // 3 floats each.
   uint normals;    // 3 floats each; `kAbsent` for flat shading.
-  uint uvs;        // 2 floats each; `kAbsent` if no texture needs them.
+  uint uvs;        // 2 floats each, `vertices` for each set of coordinates; `kAbsent` if no texture needs them.
   uint tangents;   // 4 floats each; `kAbsent` without a normal map.
   uint triangles;  // Offset into the buffer of indices, 3 for a triangle.
   uint material;
-  uint padding0;
-  uint padding1;
+  uint colors;    // 4 floats each; `kAbsent` if all are 1.
+  uint vertices;  // Their number.
 };
 
 // `MaterialData::flags`
@@ -42,9 +42,11 @@ struct MaterialData {
   uint normalTexture;
 };
 
-// `TextureData::sampling`: wrapU in bits 0 and 1, wrapV in bits 2 and 3, each a value of `render::Wrap`.
+// `TextureData::sampling`: wrapU in bits 0 and 1, wrapV in bits 2 and 3, each a value of `render::Wrap`; in the bits
+// from `kCoordinatesShift` on, `render::Texture::coordinates`.
 WALR_CONSTANT uint kWrapBits = 3u;
 WALR_CONSTANT uint kNearest = 16u;
+WALR_CONSTANT uint kCoordinatesShift = 5u;
 
 // See `render::Texture`.
 struct TextureData {

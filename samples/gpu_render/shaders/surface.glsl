@@ -49,40 +49,50 @@ vec3 interpolate3(uint first, uvec3 corners, vec2 weights) {
   return interpolate(float3At(first, corners.x), float3At(first, corners.y), float3At(first, corners.z), weights);
 }
 
-vec2 textureCoordinate(MeshData mesh, uvec3 corners, vec2 weights) {
-  if (mesh.uvs == kAbsent) return vec2(0.0);
-  return interpolate(float2At(mesh.uvs, corners.x), float2At(mesh.uvs, corners.y), float2At(mesh.uvs, corners.z), weights);
+vec4 interpolate4(uint first, uvec3 corners, vec2 weights) {
+  return interpolate(float4At(first, corners.x), float4At(first, corners.y), float4At(first, corners.z), weights);
+}
+
+vec4 vertexColor(MeshData mesh, uvec3 corners, vec2 weights) {
+  return mesh.colors == kAbsent ? vec4(1.0) : interpolate4(mesh.colors, corners, weights);
+}
+
+vec4 sampleOnMesh(uint index, uint color, MeshData mesh, uvec3 corners, vec2 weights) {
+  vec2 uv = vec2(0.0);
+  if (mesh.uvs != kAbsent) {
+    const uvec3 at = corners + (textures[index].sampling >> kCoordinatesShift) * mesh.vertices;
+    uv = interpolate(float2At(mesh.uvs, at.x), float2At(mesh.uvs, at.y), float2At(mesh.uvs, at.z), weights);
+  }
+  return sampleTexture(index, uv, color);
 }
 
 bool isHole(uint meshIndex, uint triangle, vec2 weights) {
   const MeshData mesh = meshes[meshIndex];
   const MaterialData material = materials[mesh.material];
   if ((material.flags & kCutOut) == 0u) return false;
-  float alpha = material.baseColor.a;
+  const uvec3 corners = cornersOf(mesh, triangle);
+  float alpha = material.baseColor.a * vertexColor(mesh, corners, weights).a;
   if (material.baseColorTexture != kAbsent) {
-    const vec2 uv = textureCoordinate(mesh, cornersOf(mesh, triangle), weights);
-    alpha *= sampleTexture(material.baseColorTexture, uv, kLinearTable).a;
+    alpha *= sampleOnMesh(material.baseColorTexture, kLinearTable, mesh, corners, weights).a;
   }
   return alpha < material.emission.w;
 }
 
-vec3 emittedRadiance(MaterialData material, vec2 uv) {
+vec3 emittedRadiance(MaterialData material, MeshData mesh, uvec3 corners, vec2 weights) {
   if (material.emissiveTexture == kAbsent) return material.emission.rgb;
-  return material.emission.rgb * sampleTexture(material.emissiveTexture, uv, kSrgbTable).rgb;
+  return material.emission.rgb * sampleOnMesh(material.emissiveTexture, kSrgbTable, mesh, corners, weights).rgb;
 }
 
 // Interpolated normal with the normal map applied, on the front side of the triangle.
-vec3 mappedNormal(InstanceData instance, MeshData mesh, MaterialData material, uvec3 corners, vec2 weights, vec2 uv,
-                  vec3 front) {
+vec3 mappedNormal(InstanceData instance, MeshData mesh, MaterialData material, uvec3 corners, vec2 weights, vec3 front) {
   if (mesh.normals == kAbsent) return front;
   const float side = (instance.flags & kMirrored) != 0u ? -1.0 : 1.0;
   const vec3 inObject = interpolate3(mesh.normals, corners, weights);
   const vec3 normal = unitOr(side * transformDirection(mat3(instance.normalFromObject), inObject), front);
   if (mesh.tangents == kAbsent) return normal;
-  const vec4 tangent = interpolate(float4At(mesh.tangents, corners.x), float4At(mesh.tangents, corners.y),
-                                   float4At(mesh.tangents, corners.z), weights);
+  const vec4 tangent = interpolate4(mesh.tangents, corners, weights);
   const vec3 worldTangent = unitOr(transformDirection(mat3(instance.worldFromObject), tangent.xyz), vec3(0.0));
-  const vec3 encoded = sampleTexture(material.normalTexture, uv, kLinearTable).xyz;
+  const vec3 encoded = sampleOnMesh(material.normalTexture, kLinearTable, mesh, corners, weights).xyz;
   return mapNormal(normal, worldTangent, tangent.w < 0.0 ? -side : side, encoded, material.normalScale);
 }
 
@@ -112,26 +122,25 @@ Surface evaluateSurface(Hit hit, Ray ray) {
   const float winding = (instance.flags & kMirrored) != 0u ? -1.0 : 1.0;
   const vec3 ofFront = frontNormal(world[0], world[1], world[2], winding, -ray.direction);
   const bool front = exactDot(ofFront, ray.direction) <= 0.0;
-  const vec2 uv = textureCoordinate(mesh, corners, weights);
-  const vec3 shading = mappedNormal(instance, mesh, material, corners, weights, uv, ofFront);
+  const vec3 shading = mappedNormal(instance, mesh, material, corners, weights, ofFront);
   surface.geometricNormal = front ? ofFront : -ofFront;
   surface.shadingNormal = facing(front ? shading : -shading, ray.direction, surface.geometricNormal);
   surface.towardsViewer = -ray.direction;
 
-  vec3 color = material.baseColor.rgb;
+  vec3 color = material.baseColor.rgb * vertexColor(mesh, corners, weights).rgb;
   if (material.baseColorTexture != kAbsent) {
-    color *= sampleTexture(material.baseColorTexture, uv, kSrgbTable).rgb;
+    color *= sampleOnMesh(material.baseColorTexture, kSrgbTable, mesh, corners, weights).rgb;
   }
   float metallic = material.metallic;
   surface.roughness = material.roughness;
   if (material.metallicRoughnessTexture != kAbsent) {
-    const vec4 texel = sampleTexture(material.metallicRoughnessTexture, uv, kLinearTable);
+    const vec4 texel = sampleOnMesh(material.metallicRoughnessTexture, kLinearTable, mesh, corners, weights);
     surface.roughness *= texel.y;
     metallic *= texel.z;
   }
   surface.albedo = color * (1.0 - metallic);
   const bool emits = (material.flags & kEmits) != 0u && (front || (material.flags & kDoubleSided) != 0u);
-  surface.emission = emits ? emittedRadiance(material, uv) : vec3(0.0);
+  surface.emission = emits ? emittedRadiance(material, mesh, corners, weights) : vec3(0.0);
   return surface;
 }
 

@@ -1,0 +1,155 @@
+#include "samples/render/gltf_json.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/render/scene_error.h"
+
+namespace walr::render::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+// The parser recurses once per level, so that a hostile file could overflow the stack. glTF itself needs about ten
+// levels.
+constexpr int kDeepestNesting = 128;
+
+// A parsed value takes up to 40 bytes, also if it takes two in the file. A node with a matrix has about 20 values.
+constexpr std::size_t kMostValues = std::size_t{1} << 25U;
+
+// The parser demands a buffer view of indices. Those without one get the view of this name.
+constexpr const char* kAbsentView = "walr: no buffer view";
+
+// Extensions that are only supported if a library was found when the program was built.
+struct OptionalExtension {
+  const char* name;
+  bool built;
+  const char* library;
+};
+#ifdef WALR_DRACO
+constexpr bool kDraco = true;
+#else
+constexpr bool kDraco = false;
+#endif
+#ifdef WALR_MESHOPT
+constexpr bool kMeshopt = true;
+#else
+constexpr bool kMeshopt = false;
+#endif
+constexpr std::array kOptional = {OptionalExtension{"KHR_draco_mesh_compression", kDraco, "draco"},
+                                  OptionalExtension{"EXT_meshopt_compression", kMeshopt, "meshoptimizer"}};
+
+void checkText(std::string_view json) {
+  int depth = 0;
+  std::size_t values = 0;
+  bool inString = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (inString) {
+      i += c == '\\' ? 1 : 0;
+      inString = c != '"';
+    } else if (c == '"') {
+      inString = true;
+    } else if (c == '{' || c == '[') {
+      ++values;
+      if (++depth > kDeepestNesting) {
+        throw SceneError("its JSON is nested more than " + std::to_string(kDeepestNesting) + " levels deep");
+      }
+    } else if (c == '}' || c == ']') {
+      --depth;
+    } else if (c == ',') {
+      ++values;
+    }
+  }
+  if (values > kMostValues) {
+    throw SceneError("its JSON has " + std::to_string(values) + " values; the limit is " + std::to_string(kMostValues));
+  }
+}
+
+// A member of an object, or null. Wrong types are the parser's to report.
+const Json& member(const Json& object, const char* name) {
+  static const Json none;
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  return found == object.end() ? none : *found;
+}
+
+// The elements of an array of the root; none if it is missing.
+std::span<Json> elements(Json& root, const char* name) {
+  return member(root, name).is_array() ? std::span(root[name].get_ref<Json::array_t&>()) : std::span<Json>();
+}
+
+void checkVersion(const Json& asset) {
+  const auto refuse = [](const std::string& key, const std::string& value) {
+    throw SceneError("its asset." + key + " is '" + value + "', but only glTF 2.0 is supported; export it as glTF 2.0");
+  };
+  // A later minor version may be read as 2.0, unless `minVersion` says otherwise (specification, 3.2).
+  const Json& version = member(asset, "version");
+  if (version.is_string() && !version.get<std::string>().starts_with("2.")) refuse("version", version);
+  const Json& least = member(asset, "minVersion");
+  if (least.is_string() && least != "2.0") refuse("minVersion", least);
+}
+
+void checkRequiredExtensions(const Json& required) {
+  for (const Json& item : required) {
+    if (!item.is_string() || isSupported(item)) continue;
+    const auto* const optional = std::ranges::find(kOptional, item.get<std::string>(), &OptionalExtension::name);
+    throw SceneError("it requires the extension " + item.get<std::string>() + ", which is not supported" +
+                     (optional == kOptional.end()
+                          ? ""
+                          : std::string(", because this program was built without the library ") + optional->library) +
+                     "; export the scene without it");
+  }
+}
+
+}  // namespace
+
+bool isSupported(const std::string& extension) {
+  constexpr std::array kAlways = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+                                  "KHR_texture_transform"};
+  return std::ranges::find(kAlways, extension) != kAlways.end() ||
+         std::ranges::any_of(kOptional, [&](const OptionalExtension& o) { return o.built && o.name == extension; });
+}
+
+std::optional<std::string> prepareJson(std::string_view text, bool binary) {
+  checkText(text);
+  Json json = Json::parse(text, nullptr, false);
+  checkVersion(member(json, "asset"));
+  checkRequiredExtensions(member(json, "extensionsRequired"));
+  // Views that are only stored compressed lie in buffers without a file.
+  const bool placeholders = std::ranges::count(elements(json, "extensionsRequired"), kOptional[1].name) > 0;
+  bool changed = false;
+  const std::span<Json> buffers = elements(json, "buffers");
+  for (std::size_t i = binary ? 1 : 0; i < buffers.size(); ++i) {
+    Json& buffer = buffers[i];
+    if (!buffer.is_object() || buffer.contains("uri")) continue;
+    if (placeholders) {
+      buffer["uri"] = "data:application/octet-stream;base64,AA==";
+      buffer["byteLength"] = 1;
+      changed = true;
+    } else if (binary) {
+      throw SceneError("buffer " + std::to_string(i) + ": has no uri, which only the first one of a GLB file may lack");
+    }
+  }
+  const std::size_t views = elements(json, "bufferViews").size();
+  for (Json& accessor : elements(json, "accessors")) {
+    if (!accessor.is_object() || accessor.contains("bufferView")) continue;
+    accessor["bufferView"] = views;
+    if (!json["bufferViews"].is_array()) json["bufferViews"] = Json::array();
+    json["bufferViews"][views] = {{"buffer", 0}, {"byteLength", 1}, {"name", kAbsentView}};
+    changed = true;
+  }
+  return changed ? std::optional(json.dump()) : std::nullopt;
+}
+
+void restoreAbsentViews(tinygltf::Model& model) {
+  if (model.bufferViews.empty() || model.bufferViews.back().name != kAbsentView) return;
+  model.bufferViews.pop_back();
+  for (tinygltf::Accessor& accessor : model.accessors) {
+    if (accessor.bufferView == static_cast<int>(model.bufferViews.size())) accessor.bufferView = -1;
+  }
+}
+
+}  // namespace walr::render::gltf

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <tiny_gltf.h>
+
+/// What is checked in the JSON text of a file before the parser reads it, so that the message names the true cause.
+namespace walr::render::gltf {
+
+/// Whether the loader renders what an extension says, so that a file may require it.
+bool isSupported(const std::string& extension);
+
+/// Check the text's nesting and size, the version, the required extensions and which buffers have no file.
+/// @param binary  the text is a chunk of a GLB file
+/// @returns another text for the parser if it would refuse this one although it is valid; `restoreAbsentViews` undoes
+/// it
+/// @throws SceneError
+std::optional<std::string> prepareJson(std::string_view text, bool binary);
+
+/// Give the accessors that have no buffer view in the file none in the model.
+void restoreAbsentViews(tinygltf::Model& model);
+
+}  // namespace walr::render::gltf
