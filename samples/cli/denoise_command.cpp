@@ -16,6 +16,7 @@
 #include "passes/methods/denoiser.h"
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
+#include "samples/command_line/channel_options.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/light_rate.h"
@@ -67,6 +68,13 @@ void describeInput(std::ostream& stream, const std::filesystem::path& input, con
          << (sequence.hasReferences() ? "with references" : "no references: no errors are measured") << '\n';
   if (const LightPattern& light = sequence.denoiserLayout().conventions.light; !light.everyPixel()) {
     stream << "sparse light: one sample in " << light.columns << " x " << light.rows << " pixels\n";
+  }
+  if (sequence.place() != sequence.displayWindow()) {
+    const PixelRect& place = sequence.place();
+    const glm::ivec2 corner = place.corner - sequence.displayWindow().corner;
+    stream << "data windows: within " << place.size.x << " x " << place.size.y << " pixels from (" << corner.x << ", "
+           << corner.y << ") of the picture of " << sequence.displayWindow().size.x << " x "
+           << sequence.displayWindow().size.y << "\n";
   }
   for (std::size_t i = 1; i < entries.size(); ++i) {
     if (entries[i].resetHistory) {
@@ -204,8 +212,13 @@ DenoiseReport newReport(const DenoiseOptions& options, const std::string& light,
   return report;
 }
 
-/// @throws UsageError if --average does not fit the size of the frames
+/// @throws UsageError if --average does not fit the frames
 fg::Extent extentOfPictures(int average, const Sequence& sequence) {
+  if (average > 1 && !ImagePlace{sequence.place(), sequence.place(), sequence.displayWindow()}.plain()) {
+    throw UsageError(
+        "--average: the frames are a part of the picture or reach beyond it (data window and display "
+        "window differ). Render whole pictures, or leave out --average.");
+  }
   try {
     return averagedExtent(sequence.extent(), average);
   } catch (const std::invalid_argument& error) {
@@ -374,8 +387,7 @@ void registerDenoise(CLI::App& program) {
       ->type_name("N");
   addMotionDepth(*command, options->sequence);
   addLightRate(*command, options->sequence.keptLight, kKeptLightHelp);
-  command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
-      ->type_name("NAME");
+  addChannelOptions(*command, options->sequence);
   command->footer(kExitCodeHelp);
   command->callback([=] {
     if (options->listDevices) {

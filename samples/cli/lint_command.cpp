@@ -9,6 +9,7 @@
 #include "passes/methods/denoiser.h"
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
+#include "samples/command_line/channel_options.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/motion_depth.h"
@@ -42,7 +43,12 @@ void lint(LintOptions& options) {
     if (!frame.frame.resetHistory) linter.add(frameDescriptionOf(frame.frame, layout.motionScale), sequence.extent());
   }
   device.refuseMessages();
-  const std::vector<LintFinding> findings = linter.findings();
+  std::vector<LintFinding> findings = linter.findings();
+  for (LintFinding& finding : findings) {
+    if (finding.name != "lighting-negative" || !sequence.lossy()) continue;
+    finding.cause = "the lossy compression of the files (B44 or DWA), which moves dark values below 0";
+    finding.wayOut = "save frames with a lossless compression, such as ZIP or PIZ";
+  }
   for (const LintFinding& finding : findings) std::cout << finding.text() << '\n';
   std::cout.flush();
   if (!findings.empty()) {
@@ -64,8 +70,7 @@ void registerLint(CLI::App& program) {
   command->add_option("--frames", options->frames, "First and last frame to check; default: all")->type_name("A-B");
   addDeviceOptions(*command, options->gpu);
   addMotionDepth(*command, options->sequence);
-  command->add_option("--view-layer", options->sequence.viewLayer, "View layer to read if the files hold several")
-      ->type_name("NAME");
+  addChannelOptions(*command, options->sequence);
   command->footer(kExitCodeHelp);
   command->callback([options] { lint(*options); });
 }

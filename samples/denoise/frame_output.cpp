@@ -95,14 +95,14 @@ void FrameWriter::write(const DenoisedFrame& denoised, const DenoisedFrame& show
   for (const ViewPicture& view : denoised.views) {
     std::vector<ExrChannel> components;
     appendChannels(components, "", "XYZ", view.image, ExrType::Float);
-    writeExr(path("view_" + view.name, denoised.frame), components);
+    writeExr(path("view_" + view.name, denoised.frame), components, {}, denoised.frame.place);
   }
   if (!denoised.slopes.front().empty()) {
     std::vector<ExrChannel> components;
     constexpr std::array kNames{"SlopeX", "SlopeY", "SlopeZ"};
     for (std::size_t axis = 0; axis < kNames.size(); ++axis)
       appendChannels(components, kNames.at(axis), "RGB", denoised.slopes.at(axis));
-    writeExr(path("direction", denoised.frame), components);
+    writeExr(path("direction", denoised.frame), components, {}, denoised.frame.place);
   }
 }
 
@@ -123,7 +123,7 @@ void FrameWriter::writePictures(const DenoisedFrame& shown, const std::vector<Im
   };
   addLight(options_.indirectPlane, frame.indirect, shown.indirect, referenceOf(frame).indirect);
   addLight(options_.directPlane, frame.direct, shown.direct, referenceOf(frame).direct);
-  writeExr(path("denoised", frame), channels);
+  writeExr(path("denoised", frame), channels, {}, frame.place);
   if (options_.png) writePngs(frame, rows);
 }
 

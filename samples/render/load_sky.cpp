@@ -11,6 +11,7 @@ namespace walr::render {
 
 SkyMap loadSky(const std::filesystem::path& file) {
   ExrReader reader(file);
+  reader.requireBlocks();
   walr::Image image(reader.width(), reader.height(), 3);
   reader.read(std::vector<ExrReader::Target>{{"R", &image, 0}, {"G", &image, 1}, {"B", &image, 2}});
   SkyMap map;

@@ -80,7 +80,7 @@ std::map<int, Camera> readCameraFile(const std::filesystem::path& path) {
   std::ifstream stream(path);
   if (!stream) {
     throw InputError("cannot read " + path.string() +
-                     ": Blender Cycles frames need a cameras.json in their folder with view, prev_view and projection "
+                     ": the frames need a cameras.json in their folder with view, prev_view and projection "
                      "of every frame");
   }
   Json document;

@@ -11,6 +11,7 @@
 
 #include "passes/conventions/light_pattern.h"
 #include "samples/image/image.h"
+#include "samples/image/pixel_rect.h"
 
 namespace walr {
 
@@ -50,8 +51,8 @@ struct NonFiniteChannel {
   std::size_t count = 0;
 };
 
-/// One frame as its renderer wrote it. All images have one size. The space of normals and the scale of motion depend on
-/// the `Layout`.
+/// One frame as its renderer wrote it. All images have one size; pixels outside of the file's data window are sky
+/// without light. The space of normals and the scale of motion depend on the `Layout`.
 struct Frame {
   int number = 0;
   /// 3 components: demodulated diffuse indirect radiance, linear; empty unless requested. Undefined at pixels that
@@ -70,7 +71,8 @@ struct Frame {
   /// requested, and if the files hold none.
   Image nonDiffuse;
   Image objectId;  ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
-  Camera camera;
+  Camera camera;   ///< Of the images.
+  std::optional<ImagePlace> place;  ///< Absent: the images are the whole picture.
   /// Projection and jitter of the frame before; for the first frame, those of this frame.
   glm::mat4 previousProjection{1.0F};
   glm::vec2 previousJitter{0.0F};

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "passes/settings/text.h"
 #include "samples/errors.h"
+#include "samples/sequence/channel_map.h"
 
 namespace walr {
 namespace {
@@ -120,9 +122,17 @@ void addLight(const AddedLight& light, const std::map<std::string_view, Image>& 
   }
 }
 
+/// What a plane holds at pixels outside of the data window, where nothing is visible.
+float valueOutside(Role role) {
+  if (role == Role::Depth) return kBackgroundDepth;
+  return role == Role::ObjectId ? -1.0F : 0.0F;
+}
+
+/// @param outside  value of pixels that the file lacks
 void addTargets(std::vector<ExrReader::Target>& targets, const RecognizedLayout& layout, const Plane& plane,
-                Image& image, const ExrReader& file) {
-  image = Image(file.width(), file.height(), imageComponents(plane));
+                Image& image, const PixelRect& place, float outside) {
+  image = Image(place.size.x, place.size.y, imageComponents(plane));
+  if (outside != 0.0F) std::ranges::fill(image.values(), outside);
   for (std::size_t c = 0; c < plane.components.size(); ++c) {
     targets.push_back({layout.channel(plane.name, plane.components[c]), &image, static_cast<int>(c)});
   }
@@ -195,7 +205,8 @@ void requirePlanes(const ExrReader& file, const RecognizedLayout& layout, std::s
   }
   if (!missing.empty()) {
     throw InputError(file.path().string() + ": missing channel" + (missing.size() > 1 ? "s " : " ") + join(missing) +
-                     " (layout: " + std::string(layout.layout->name) + "). " + wayOut);
+                     " (layout: " + std::string(layout.layout->name) + "). " +
+                     (layout.map != nullptr ? "Correct the map. Channels found: " + join(present) : wayOut));
   }
 }
 
@@ -255,7 +266,10 @@ std::string RecognizedLayout::plane(Light light) const {
 }
 
 std::string RecognizedLayout::channel(std::string_view plane, char component) const {
-  return this->plane(plane) + "." + component;
+  const std::string name = this->plane(plane) + "." + component;
+  if (map == nullptr) return name;
+  const auto found = map->channels.find(name);
+  return found == map->channels.end() ? name : found->second;
 }
 
 RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLayer) {
@@ -283,11 +297,24 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
                          [&](const AddedLight& light) { return hasPlane(file, recognized, colours(light.name)); });
     return recognized;
   }
+  if (file.views().size() > 1) {
+    throw InputError(file.path().string() + ": the picture has several views (" + join(file.views()) +
+                     "); choose one with --stereo-view NAME. Channels found: " + join(channels));
+  }
   throw InputError(
       file.path().string() +
       ": neither a Blender Cycles frame (channels DiffInd.R, ..., or Diffuse Indirect.R, ... since Blender "
-      "5) nor a frame in walr's own layout (Indirect.R, ...). Channels found: " +
+      "5) nor a frame in walr's own layout (Indirect.R, ...). If another renderer wrote it, say with --channels FILE "
+      "which "
+      "channels hold what. Channels found: " +
       (channels.empty() ? "none" : join(channels)));
+}
+
+RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const ChannelMap> map) {
+  RecognizedLayout mapped{&map->layout, {}};
+  mapped.map = std::move(map);
+  mapped.objectIds = hasPlane(file, mapped, mapped.layout->objectId);
+  return mapped;
 }
 
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
@@ -319,26 +346,27 @@ void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& lay
   requirePlanes(file, layout, planes, "A file whose name starts with 'ref' is a reference; rename it if it is not.");
 }
 
-void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted, Frame& frame) {
+void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted, const PixelRect& place,
+               Frame& frame) {
   file.requireBlocks();
   std::vector<ExrReader::Target> targets;
+  const auto addPlane = [&](const Plane& plane) {
+    addTargets(targets, layout, plane, imageOf(frame, plane.role), place, valueOutside(plane.role));
+  };
   for (const Plane& plane : layout.layout->planes) {
-    if (isWanted(plane, wanted)) {
-      addTargets(targets, layout, plane, imageOf(frame, plane.role), file);
-    }
+    if (isWanted(plane, wanted)) addPlane(plane);
   }
-  if (layout.objectIds) {
-    addTargets(targets, layout, layout.layout->objectId, frame.objectId, file);
-  }
+  if (layout.objectIds) addPlane(layout.layout->objectId);
   std::map<std::string_view, Image> added;
   if (wanted.rest) {
     for (const AddedLight& light : layout.added) {
       for (const std::string_view name : {light.name, light.colour}) {
-        if (!name.empty() && !added.contains(name)) addTargets(targets, layout, colours(name), added[name], file);
+        if (name.empty() || added.contains(name)) continue;
+        addTargets(targets, layout, colours(name), added[name], place, 0.0F);
       }
     }
   }
-  file.read(targets);
+  file.read(targets, place);
   findNonFinite(file.path(), targets, false, frame.nonFinite);
   if (wanted.rest) {
     for (const AddedLight& light : layout.added) addLight(light, added, frame.*light.image);
@@ -346,24 +374,33 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish&
 }
 
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted,
-                        std::vector<NonFiniteChannel>& nonFinite) {
+                        const PixelRect& place, std::vector<NonFiniteChannel>& nonFinite) {
   file.requireBlocks();
   Reference reference;
   std::vector<ExrReader::Target> targets;
+  const auto addPlane = [&](const Plane& plane, Image& image) {
+    addTargets(targets, layout, plane, image, place, std::numeric_limits<float>::quiet_NaN());
+  };
   const Plane& indirect = planeOf(*layout.layout, Role::Indirect);
   const Plane& direct = planeOf(*layout.layout, Role::Direct);
   const bool readsIndirect = wanted.indirect && hasPlane(file, layout, indirect);
-  if (readsIndirect) addTargets(targets, layout, indirect, reference.indirect, file);
-  if (wanted.direct && hasPlane(file, layout, direct)) addTargets(targets, layout, direct, reference.direct, file);
+  if (readsIndirect) addPlane(indirect, reference.indirect);
+  if (wanted.direct && hasPlane(file, layout, direct)) addPlane(direct, reference.direct);
   const std::size_t checked = targets.size();
+  Image albedo;
+  const bool divide = layout.map != nullptr && layout.map->lightTimesAlbedo && !targets.empty();
+  if (divide) addPlane(planeOf(*layout.layout, Role::Albedo), albedo);
   Plane half = indirect;
   const std::string halfName = std::string(half.name) + "A";
   half.name = halfName;
-  if (readsIndirect && hasPlane(file, layout, half)) {
-    addTargets(targets, layout, half, reference.indirectHalf, file);
-  }
-  if (!targets.empty()) file.read(targets);
+  if (readsIndirect && hasPlane(file, layout, half)) addPlane(half, reference.indirectHalf);
+  if (!targets.empty()) file.read(targets, place);
   findNonFinite(file.path(), std::span(targets).first(checked), true, nonFinite);
+  if (divide) {
+    for (Image* const light : {&reference.indirect, &reference.direct, &reference.indirectHalf}) {
+      divideByAlbedo(*light, albedo);
+    }
+  }
   return reference;
 }
 

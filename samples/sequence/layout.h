@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -65,14 +66,17 @@ const Layout& projectLayout();
 /// @throws InputError if the source is `Given` and the layout's motion has no third component
 Layout withMotionDepth(const Layout& layout, InputConventions::MotionDepth source, const std::filesystem::path& file);
 
+struct ChannelMap;
+
 /// The layout of a file, with the file's view layer.
 struct RecognizedLayout {
   const Layout* layout = nullptr;
-  std::string viewLayer;               ///< Empty if the channels have no view-layer prefix.
-  bool objectIds = false;              ///< The file has `Layout::objectId`.
-  std::vector<AddedLight> added = {};  ///< Those of `Layout::added` that the file has.
+  std::string viewLayer;                       ///< Empty if the channels have no view-layer prefix.
+  bool objectIds = false;                      ///< The file has `Layout::objectId`.
+  std::vector<AddedLight> added = {};          ///< Those of `Layout::added` that the file has.
+  std::shared_ptr<const ChannelMap> map = {};  ///< Where channels are found, if a user says so; `layout` is its.
 
-  /// Full name of a plane, and of one of its channels.
+  /// Full name of a plane, and of one of its channels in the file.
   [[nodiscard]] std::string plane(std::string_view name) const;
   [[nodiscard]] std::string channel(std::string_view plane, char component) const;
   /// Full name of the plane that holds a light.
@@ -84,6 +88,9 @@ struct RecognizedLayout {
 /// @throws InputError naming the channels if no layout fits, or the view layers if one must be chosen
 RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLayer);
 
+/// The layout of a file whose channels a user has described.
+RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const ChannelMap> map);
+
 /// Check that the file has every channel of the planes that are needed.
 /// @throws InputError naming file and channels
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted);
@@ -92,12 +99,15 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
 void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted);
 
 /// Read the required planes into the frame's images; add channels with non-finite values to `Frame::nonFinite`.
-void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted, Frame& frame);
+/// @param place  of the images
+void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted, const PixelRect& place,
+               Frame& frame);
 
 /// Read the wanted lights that a reference holds, and add its channels with non-finite values to `nonFinite`. The mean
 /// of one half of the samples is optional: the plane of indirect light with an A after its name (`IndirectA`).
+/// @param place  of the images; pixels that the file lacks have no reference
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted,
-                        std::vector<NonFiniteChannel>& nonFinite);
+                        const PixelRect& place, std::vector<NonFiniteChannel>& nonFinite);
 
 /// The passes that a composite adds as they are, in words: "Emit, GlossDir x GlossCol".
 /// @param denoised  the lights that are not among them

@@ -11,7 +11,9 @@
 
 #include "passes/conventions/light_pattern.h"
 #include "samples/errors.h"
+#include "samples/image/exr_limits.h"
 #include "samples/sequence/cameras.h"
+#include "samples/sequence/channel_map.h"
 
 namespace walr {
 namespace {
@@ -54,8 +56,29 @@ bool differs(const glm::mat4& a, const glm::mat4& b) {
   return false;
 }
 
-std::string sizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
+std::string text(const PixelRect& rect) {
+  const auto pair = [](glm::ivec2 v, const char* between) {
+    return std::to_string(v.x) + between + std::to_string(v.y);
+  };
+  return pair(rect.size, " x ") + " pixels" +
+         (rect.corner == glm::ivec2(0) ? "" : " from (" + pair(rect.corner, ", ") + ") on");
+}
+
+/// The projection to the clip space of a part of the picture that a projection belongs to; the part may reach beyond
+/// it.
+glm::mat4 projectionTo(const PixelRect& part, const PixelRect& picture, const glm::mat4& projection) {
+  if (part == picture) return projection;
+  const glm::dvec2 scale = glm::dvec2(picture.size) / glm::dvec2(part.size);
+  // The centre of the picture in clip space of the part, whose y is up.
+  const glm::dvec2 centre = glm::dvec2(picture.corner - part.corner) + 0.5 * glm::dvec2(picture.size);
+  const glm::dvec2 shift = (2.0 * centre / glm::dvec2(part.size) - 1.0) * glm::dvec2(1.0, -1.0);
+  glm::dmat4 result(projection);
+  for (int column = 0; column < 4; ++column) {
+    for (int axis = 0; axis < 2; ++axis) {
+      result[column][axis] = scale[axis] * result[column][axis] + shift[axis] * result[column][3];
+    }
+  }
+  return glm::mat4(result);
 }
 
 void refuseNonFinite(const std::vector<NonFiniteChannel>& channels) {
@@ -134,22 +157,26 @@ void Sequence::scan() {
 void Sequence::checkHeaders() {
   std::map<int, Camera> cameras;
   for (Entry& entry : entries_) {
-    const ExrReader file(entry.file);
+    const ExrReader file(entry.file, options_.stereoView);
     if (layout_.layout == nullptr) {
-      layout_ = recognizeLayout(file, options_.viewLayer);
+      layout_ = layoutOf(file);
+      lossy_ = file.lossy();
       denoiserLayout_ =
           options_.motionDepth ? withMotionDepth(*layout_.layout, *options_.motionDepth, entry.file) : *layout_.layout;
-      extent_ = {static_cast<std::uint32_t>(file.width()), static_cast<std::uint32_t>(file.height())};
+      displayWindow_ = file.displayWindow();
+      place_ = file.dataWindow();
       if (layout_.layout->cameras == CameraSource::JsonFile) {
         cameras = readCameraFile(folder_ / "cameras.json");
       }
     }
     requireChannels(file, layout_, options_.light);
-    checkSize(file);
+    checkDisplayWindow(file);
+    entry.dataWindow = file.dataWindow();
+    place_ = united(place_, entry.dataWindow);
     if (!entry.reference.empty()) {
-      const ExrReader reference(entry.reference);
+      const ExrReader reference(entry.reference, options_.stereoView);
       requireReferenceChannels(reference, layout_, options_.light);
-      checkSize(reference);
+      checkDisplayWindow(reference);
     }
     if (layout_.layout->cameras == CameraSource::HeaderAttributes) {
       entry.camera = readCameraAttributes(file);
@@ -161,7 +188,30 @@ void Sequence::checkHeaders() {
                        std::to_string(entry.number) + " (" + entry.file.filename().string() + ")");
     }
   }
+  placeImages();
   if (!options_.keptLight.everyPixel()) keepSomeLight();
+}
+
+RecognizedLayout Sequence::layoutOf(const ExrReader& file) const {
+  if (options_.channelMap.empty()) return recognizeLayout(file, options_.viewLayer);
+  const auto map = std::make_shared<ChannelMap>();
+  readChannelMap(options_.channelMap, *map);
+  return mappedLayout(file, map);
+}
+
+void Sequence::placeImages() {
+  try {
+    requireWithinLimits(place_);
+  } catch (const std::runtime_error& error) {
+    throw InputError(folder_.string() + ": the data windows of its frames lie in a rectangle of " + text(place_) +
+                     ": " + error.what() + ". Choose frames that lie nearer together with --frames A-B.");
+  }
+  const LightPattern& light = denoiserLayout_.conventions.light;
+  for (Entry& entry : entries_) {
+    entry.camera.projection = projectionTo(place_, displayWindow_, entry.camera.projection);
+    entry.lightOffset =
+        (entry.lightOffset + entry.dataWindow.corner - place_.corner) % glm::ivec2(light.columns, light.rows);
+  }
 }
 
 void Sequence::keepSomeLight() {
@@ -188,14 +238,11 @@ void Sequence::readLight(const ExrReader& file, Entry& entry) {
   entry.lightOffset = light.offset;
 }
 
-void Sequence::checkSize(const ExrReader& file) const {
-  const int width = static_cast<int>(extent_.width);
-  const int height = static_cast<int>(extent_.height);
-  if (file.width() != width || file.height() != height) {
-    throw InputError(file.path().string() + " is " + sizeText(file.width(), file.height()) + " pixels, but " +
-                     entries_.front().file.filename().string() + " is " + sizeText(width, height) +
-                     ". All frames and references must have the same size.");
-  }
+void Sequence::checkDisplayWindow(const ExrReader& file) const {
+  if (file.displayWindow() == displayWindow_) return;
+  throw InputError(file.path().string() + " is a picture (display window) of " + text(file.displayWindow()) + ", but " +
+                   entries_.front().file.filename().string() + " is one of " + text(displayWindow_) +
+                   ". All frames and references must belong to the same picture; only their data windows may differ.");
 }
 
 void Sequence::markCuts() {
@@ -227,16 +274,19 @@ Frame Sequence::read(std::size_t index) const {
   frame.previousJitter = previous.jitter;
   frame.previousLightOffset = entries_[index > 0 ? index - 1 : 0].lightOffset;
 
-  ExrReader file(entry.file);
-  checkSize(file);
-  readFrame(file, layout_, options_.light, frame);
+  frame.place = ImagePlace{place_, entry.dataWindow, displayWindow_};
+
+  ExrReader file(entry.file, options_.stereoView);
+  checkDisplayWindow(file);
+  readFrame(file, layout_, options_.light, place_, frame);
+  if (layout_.map != nullptr) convertByMap(*layout_.map, frame);
   if (!options_.keptLight.everyPixel() && options_.light.indirect) {
     clearUnsampled(frame.indirect, frame.light, frame.lightOffset);
   }
   if (!entry.reference.empty()) {
-    ExrReader reference(entry.reference);
-    checkSize(reference);
-    frame.reference = readReference(reference, layout_, options_.light, frame.nonFinite);
+    ExrReader reference(entry.reference, options_.stereoView);
+    checkDisplayWindow(reference);
+    frame.reference = readReference(reference, layout_, options_.light, place_, frame.nonFinite);
   }
   if (options_.nonFinite == NonFinitePolicy::Fail) {
     refuseNonFinite(frame.nonFinite);

@@ -27,6 +27,8 @@ struct SequenceOptions {
   std::optional<FrameRange> frames;  ///< Absent: all frames.
   LightWish light;                   ///< The light to read.
   std::string viewLayer;             ///< See `recognizeLayout`.
+  std::string stereoView;            ///< See `ExrReader`.
+  std::filesystem::path channelMap;  ///< See `readChannelMap`; empty: the layout is recognised.
   std::vector<int> cuts;             ///< Frames that follow a camera cut, in addition to those that the cameras show.
   NonFinitePolicy nonFinite = NonFinitePolicy::Fail;
   std::optional<InputConventions::MotionDepth> motionDepth;  ///< Absent: as the layout says.
@@ -37,6 +39,10 @@ struct SequenceOptions {
 
 /// A folder of frames. The constructor checks names, numbers, channels, sizes and cameras of all frames before any
 /// pixel is read.
+///
+/// The images of all frames have the place of the smallest rectangle that holds the data windows of all frames,
+/// whichever pixels a single file has. The cameras of the files belong to the display window, which is the same in all
+/// frames.
 class Sequence {
  public:
   /// One frame's files and camera.
@@ -44,8 +50,9 @@ class Sequence {
     int number = 0;
     std::filesystem::path file;
     std::filesystem::path reference;  ///< Empty if there is none.
-    Camera camera;
-    glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`.
+    Camera camera;                    ///< Of the images of `read`.
+    PixelRect dataWindow;
+    glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`; in the images of `read`.
     bool resetHistory = false;  ///< First frame, or a camera cut.
   };
 
@@ -58,8 +65,15 @@ class Sequence {
   [[nodiscard]] const RecognizedLayout& layout() const { return layout_; }
   /// What a denoiser is told of the frames: the files' layout with `SequenceOptions::motionDepth`.
   [[nodiscard]] const Layout& denoiserLayout() const { return denoiserLayout_; }
-  [[nodiscard]] fg::Extent extent() const { return extent_; }
+  [[nodiscard]] fg::Extent extent() const {
+    return {static_cast<std::uint32_t>(place_.size.x), static_cast<std::uint32_t>(place_.size.y)};
+  }
+  /// Where the images of all frames lie, and the picture.
+  [[nodiscard]] const PixelRect& place() const { return place_; }
+  [[nodiscard]] const PixelRect& displayWindow() const { return displayWindow_; }
   [[nodiscard]] bool hasReferences() const;
+  /// See `ExrReader::lossy`; of the first frame.
+  [[nodiscard]] bool lossy() const { return lossy_; }
 
   /// Read one frame with its reference. Several threads may read frames at the same time.
   /// @throws InputError
@@ -68,7 +82,9 @@ class Sequence {
  private:
   void scan();
   void checkHeaders();
-  void checkSize(const ExrReader& file) const;
+  void checkDisplayWindow(const ExrReader& file) const;
+  [[nodiscard]] RecognizedLayout layoutOf(const ExrReader& file) const;
+  void placeImages();
   void readLight(const ExrReader& file, Entry& entry);
   void keepSomeLight();
   void markCuts();
@@ -78,7 +94,9 @@ class Sequence {
   std::vector<Entry> entries_;
   RecognizedLayout layout_;
   Layout denoiserLayout_;
-  fg::Extent extent_;
+  bool lossy_ = false;
+  PixelRect place_;
+  PixelRect displayWindow_;
 };
 
 }  // namespace walr

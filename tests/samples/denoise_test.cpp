@@ -133,6 +133,25 @@ TEST_F(FrameOutputTest, CompositesAddLightThatIsNotDiffuse) {
   EXPECT_EQ(read.at(8, 9, 2), 0.5F);
 }
 
+// Everything that is written lies over the frame in a compositor.
+TEST_F(FrameOutputTest, ResultsHaveTheWindowsOfTheirFrame) {
+  const ImagePlace place{{{4, 2}, {16, 12}}, {{5, 3}, {8, 7}}, {{0, 0}, {64, 48}}};
+  denoised.frame.place = place;
+  denoised.indirect.at(1, 1, 0) = 3.0F;  // The corner of the data window.
+  denoised.views.push_back({"some", Image(16, 12, 3)});
+  denoised.slopes.fill(Image(16, 12, 3));
+  FrameWriter(options).write(denoised);
+  for (const char* const name : {"denoised_0012.exr", "direction_0012.exr", "view_some_0012.exr"}) {
+    const ExrReader file(directory.path() / name);
+    EXPECT_EQ(file.dataWindow(), place.data) << name;
+    EXPECT_EQ(file.displayWindow(), place.display) << name;
+  }
+  ExrReader file(directory.path() / "denoised_0012.exr");
+  Image red(8, 7, 1);
+  file.read(std::vector<ExrReader::Target>{{"Indirect.R", &red, 0}});
+  EXPECT_EQ(red.at(0, 0, 0), 3.0F);
+}
+
 TEST_F(FrameOutputTest, DirectLightAloneIsWrittenAndMeasured) {
   options.png = true;
   denoised.direct = denoised.frame.direct;

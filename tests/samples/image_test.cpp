@@ -11,10 +11,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfOutputPart.h>
-#include <OpenEXR/ImfPartType.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -145,36 +142,6 @@ TEST(Exr, AHeaderThatClaimsMoreThanTheFileHoldsIsRefusedBeforeMemoryIsAllocated)
   widen(file, 127, 63);
   fg::test::expectError<InputError>([&] { ExrReader(file).requireBlocks(); },
                                     {"widened.exr", "256 bytes", "claims 512"});
-  // With room for a table of 16384 blocks, which is read at once.
-  widen(file, 16383, 16383);
-  std::ofstream(file, std::ios::binary | std::ios::app) << std::string(16384 * sizeof(std::uint64_t), '\0');
-  fg::test::expectError<InputError>([&] { ExrReader{file}; }, {"widened.exr", "67108864 pixels"});
-}
-
-// Blender 5 gives every pass a part of its own by default.
-TEST(Exr, AFileOfSeveralPartsIsRefused) {
-  const test::TemporaryDirectory directory;
-  const auto file = directory.path() / "parts.exr";
-  std::array<float, 4> values{};
-  std::vector<Imf::Header> headers;
-  for (const char* const name : {"ViewLayer.Combined", "ViewLayer.Depth"}) {
-    Imf::Header& header = headers.emplace_back(2, 2);
-    header.setName(name);
-    header.setType(Imf::SCANLINEIMAGE);
-    header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
-  }
-  {
-    Imf::MultiPartOutputFile output(file.c_str(), headers.data(), static_cast<int>(headers.size()));
-    Imf::FrameBuffer buffer;
-    buffer.insert("Y",
-                  Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float), 2 * sizeof(float)));
-    for (int part = 0; part < 2; ++part) {
-      Imf::OutputPart written(output, part);
-      written.setFrameBuffer(buffer);
-      written.writePixels(2);
-    }
-  }
-  fg::test::expectError<InputError>([&] { const ExrReader reader(file); }, {"parts.exr", "2 parts", "Interleave"});
 }
 
 TEST(Exr, OnlyAWholeImageIsComplete) {

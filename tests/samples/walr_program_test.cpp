@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <random>
@@ -14,6 +15,7 @@
 #include "samples/image/exr.h"
 #include "samples/sequence/sequence.h"
 #include "samples/sequence/writer.h"
+#include "tests/samples/exr_files.h"
 #include "tests/samples/process.h"
 #include "tests/samples/schema_check.h"
 #include "tests/samples/synthetic_sequence.h"
@@ -194,6 +196,43 @@ TEST_F(ProgramTest, LintsWhatItRendered) {
   const ProcessResult result = walr({"lint", input.string(), "--validate"});
   expectSuccess(result);
   EXPECT_NE(result.out.find("4 frames, nothing looks wrong"), std::string::npos) << result.out;
+}
+
+/// A file with the channels of Cycles' layout that are always read.
+void writeCycles(const fs::path& file, test::ExrPart part, const Imath::Box2i& display) {
+  part.channels = {"Depth.Z",   "DiffCol.B", "DiffCol.G", "DiffCol.R", "DiffInd.B", "DiffInd.G",
+                   "DiffInd.R", "Normal.X",  "Normal.Y",  "Normal.Z",  "Vector.X",  "Vector.Y"};
+  std::ofstream(file, std::ios::binary) << test::exrBytes({.parts = {part}, .display = display});
+}
+
+// DWA and B44 make dark values negative, which no renderer and no filter did.
+TEST_F(ProgramTest, LintsNegativeLightOfLossyFilesAsThat) {
+  files.writeCameras(0, 0);
+  for (const auto& [compression, cause] : {std::pair{Imf::B44_COMPRESSION, "lossy compression"},
+                                           std::pair{Imf::ZIP_COMPRESSION, "reconstruction filter"}}) {
+    writeCycles(input / "f0.exr", {.channels = {}, .compression = compression, .factor = -1.0F}, {{0, 0}, {5, 3}});
+    const ProcessResult result = walr({"lint", input.string()});
+    const std::size_t found = result.out.find("lighting-negative");
+    ASSERT_NE(found, std::string::npos) << result.out;
+    EXPECT_NE(result.out.find(cause, found), std::string::npos) << result.out;
+  }
+}
+
+TEST_F(ProgramTest, ResultsOfMovingCropsLieOverTheirFrames) {
+  files.writeCameras(0, 1);
+  const Imath::Box2i display{{0, 0}, {23, 17}};
+  writeCycles(input / "f0.exr", {.channels = {}, .data = {{2, 1}, {17, 12}}}, display);
+  writeCycles(input / "f1.exr", {.channels = {}, .data = {{6, 3}, {23, 14}}}, display);
+  const ProcessResult result = denoise({"--method", "none"});
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("within 22 x 14 pixels from (2, 1) of the picture of 24 x 18"), std::string::npos)
+      << result.out;
+  const ExrReader denoised(output / "denoised_0001.exr");
+  EXPECT_EQ(denoised.dataWindow(), (PixelRect{{6, 3}, {18, 12}}));
+  EXPECT_EQ(denoised.displayWindow(), (PixelRect{{0, 0}, {24, 18}}));
+  // The method gives the input back, rounded to halves, which the values are.
+  EXPECT_EQ(readIndirect(output / "denoised_0001.exr").at(0, 0, 2), test::valueAt(6, 3, 4));
+  expectFailure(denoise({"--average", "2"}), kUsage, {"--average", "data window"});
 }
 
 TEST_F(ProgramTest, RendersLintsAndDenoisesSparseLight) {
