@@ -7,7 +7,7 @@
 namespace walr {
 
 /// A text that is safe to print: control characters, which a terminal would obey, and bytes that are no UTF-8 are
-/// written as \xNN.
+/// written as `\\xNN`.
 std::string printable(std::string_view text);
 
 /// Where a channel is stored.
