@@ -51,7 +51,7 @@ Encoded encode(draco::MeshEncoderMethod method) {
 
 // With its least corner first, which keeps the winding.
 Triangle canonical(Triangle triangle) {
-  std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+  std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
   return triangle;
 }
 
