@@ -55,7 +55,7 @@ def compile_shared_headers(entry, folder):
 
 
 def without_repetitions(entries, build):
-    """Generated sources are alike, so one of each folder is enough."""
+    """Generated sources are alike, so one of each folder is enough. Joined sources, in folders of their own, are not alike."""
     kept, folders = [], set()
     for entry in entries:
         folder = pathlib.Path(entry["file"]).parent

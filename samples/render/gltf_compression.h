@@ -5,6 +5,9 @@
 /// Decoders of compressed meshes. Each is built if CMake found its library.
 namespace walr::render::gltf {
 
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
+
 /// Replace the buffer views of EXT_meshopt_compression by decoded ones.
 /// @throws SceneError naming the view that cannot be decoded, or whose decoded size exceeds what its bytes can hold
 void decodeMeshopt(tinygltf::Model& model);

@@ -16,8 +16,6 @@
 namespace walr::render::gltf {
 namespace {
 
-constexpr const char* kExtension = "KHR_draco_mesh_compression";
-
 // The numbers of faces and points that the library would allocate without a look at the number of bytes. They stand at
 // the beginning of the data (Draco bitstream specification 2.2). Counts the sum in `total`.
 void checkSizes(std::span<const std::uint8_t> bytes, std::uint64_t& total, const std::string& name) {
@@ -130,10 +128,11 @@ void decodeDraco(tinygltf::Model& model) {
   for (std::size_t i = 0; i < model.meshes.size(); ++i) {
     for (std::size_t p = 0; p < model.meshes[i].primitives.size(); ++p) {
       tinygltf::Primitive& primitive = model.meshes[i].primitives[p];
-      const auto extension = primitive.extensions.find(kExtension);
+      const auto extension = primitive.extensions.find(kDracoExtension);
       if (extension == primitive.extensions.end()) continue;
-      decodePrimitive(model, primitive, extension->second, total,
-                      partName("mesh", i, model.meshes[i].name) + " primitive " + std::to_string(p) + " " + kExtension);
+      decodePrimitive(
+          model, primitive, extension->second, total,
+          partName("mesh", i, model.meshes[i].name) + " primitive " + std::to_string(p) + " " + kDracoExtension);
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "samples/render/gltf_compression.h"
 #include "samples/render/scene_error.h"
 
 namespace walr::render::gltf {
@@ -39,8 +40,8 @@ constexpr bool kMeshopt = true;
 #else
 constexpr bool kMeshopt = false;
 #endif
-constexpr std::array kOptional = {OptionalExtension{"KHR_draco_mesh_compression", kDraco, "draco"},
-                                  OptionalExtension{"EXT_meshopt_compression", kMeshopt, "meshoptimizer"}};
+constexpr std::array kOptional = {OptionalExtension{kDracoExtension, kDraco, "draco"},
+                                  OptionalExtension{kMeshoptExtension, kMeshopt, "meshoptimizer"}};
 
 void checkText(std::string_view json) {
   int depth = 0;
@@ -119,13 +120,13 @@ std::optional<std::string> prepareJson(std::string_view text, bool binary) {
   checkVersion(member(json, "asset"));
   checkRequiredExtensions(member(json, "extensionsRequired"));
   // Views that are only stored compressed lie in buffers without a file.
-  const bool placeholders = std::ranges::count(elements(json, "extensionsRequired"), kOptional[1].name) > 0;
+  const bool onlyCompressed = std::ranges::count(elements(json, "extensionsRequired"), kMeshoptExtension) > 0;
   bool changed = false;
   const std::span<Json> buffers = elements(json, "buffers");
   for (std::size_t i = binary ? 1 : 0; i < buffers.size(); ++i) {
     Json& buffer = buffers[i];
     if (!buffer.is_object() || buffer.contains("uri")) continue;
-    if (placeholders) {
+    if (onlyCompressed) {
       buffer["uri"] = "data:application/octet-stream;base64,AA==";
       buffer["byteLength"] = 1;
       changed = true;

@@ -65,10 +65,10 @@ void decodeMeshopt(tinygltf::Model& model) {
   for (const tinygltf::Buffer& buffer : model.buffers) budget += buffer.data.size();
   for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
     tinygltf::BufferView& view = model.bufferViews[i];
-    const auto extension = view.extensions.find("EXT_meshopt_compression");
+    const auto extension = view.extensions.find(kMeshoptExtension);
     if (extension == view.extensions.end()) continue;
     const tinygltf::Value& source = extension->second;
-    const std::string name = partName("buffer view", i, view.name) + " EXT_meshopt_compression";
+    const std::string name = partName("buffer view", i, view.name) + " " + kMeshoptExtension;
     Compressed c{.bytes = bufferBytes(model, static_cast<int>(readCount(source, "buffer", name)),
                                       source.Has("byteOffset") ? readCount(source, "byteOffset", name) : 0,
                                       readCount(source, "byteLength", name), name),
