@@ -125,8 +125,9 @@ class Copy:
     def seconds(self):
         """How long each test took in earlier runs, by name, as CTest keeps it."""
         costs = self.build_folder / "Testing" / "Temporary" / "CTestCostData.txt"
-        rows = [line.split() for line in costs.read_text().split("---")[0].splitlines()] if costs.exists() else []
-        return {row[0]: float(row[2]) for row in rows}
+        # Name, number of runs, mean seconds; a name may have spaces.
+        rows = [line.rsplit(" ", 2) for line in costs.read_text().split("---")[0].splitlines()] if costs.exists() else []
+        return {name: float(mean) for name, _, mean in rows}
 
     def numbers(self, programs):
         """CTest's numbers of the quick tests and of the slow ones that run one of the programs; of all tests if none is named."""
