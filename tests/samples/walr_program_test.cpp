@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -16,12 +14,9 @@
 #include "samples/sequence/sequence.h"
 #include "samples/sequence/writer.h"
 #include "tests/samples/exr_files.h"
-#include "tests/samples/process.h"
 #include "tests/samples/schema_check.h"
-#include "tests/samples/synthetic_sequence.h"
-#include "tests/samples/temporary_directory.h"
+#include "tests/samples/walr_program.h"
 
-/// The program as users call it: exit codes, messages, files.
 namespace walr {
 namespace {
 
@@ -29,48 +24,11 @@ namespace fs = std::filesystem;
 using test::Channels;
 using test::expectFailure;
 using test::expectSuccess;
+using test::kInput;
+using test::kUsage;
 using test::ProcessOptions;
 using test::ProcessResult;
 using test::SyntheticSequence;
-
-using test::kDevice;
-using test::kInput;
-using test::kOutput;
-using test::kUsage;
-
-Image readIndirect(const fs::path& file, const std::string& plane = "Indirect") {
-  ExrReader reader(file);
-  Image image(reader.width(), reader.height(), 3);
-  reader.read(
-      std::vector<ExrReader::Target>{{plane + ".R", &image, 0}, {plane + ".G", &image, 1}, {plane + ".B", &image, 2}});
-  return image;
-}
-
-void expectFinite(const Image& image) {
-  EXPECT_TRUE(std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); }));
-}
-
-class ProgramTest : public testing::Test {
- protected:
-  ProgramTest() { fs::create_directory(input); }
-
-  static ProcessResult walr(std::vector<std::string> arguments, const ProcessOptions& options = {}) {
-    arguments.insert(arguments.begin(), WALR_PROGRAM);
-    return test::runProcess(arguments, options);
-  }
-  /// `walr denoise` from the input to the output folder, under the validation layer.
-  [[nodiscard]] ProcessResult denoise(std::vector<std::string> more = {}, const ProcessOptions& options = {}) const {
-    std::vector<std::string> arguments = {"denoise", input.string(), "--output", output.string(), "--validate"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return walr(arguments, options);
-  }
-  [[nodiscard]] std::vector<std::string> outputFiles() const { return test::namesIn(output); }
-
-  test::TemporaryDirectory directory;
-  fs::path input = directory.path() / "in";
-  fs::path output = directory.path() / "out";
-  SyntheticSequence files{input, 24, 18};
-};
 
 TEST_F(ProgramTest, HelpExplainsEveryCommand) {
   for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{{}, {"denoise"}, {"graph"}}) {
@@ -466,163 +424,6 @@ TEST_P(MethodAndSize, ComesOutFinite) {
 INSTANTIATE_TEST_SUITE_P(TinyAndOdd, MethodAndSize,
                          testing::Combine(testing::ValuesIn(denoiserNames()), testing::Values(1, 7),
                                           testing::Values(1, 5)));
-
-TEST_F(ProgramTest, BadInputIsNamedBeforeAnythingIsWritten) {
-  const auto expectBad = [&](std::initializer_list<std::string_view> parts) {
-    expectFailure(denoise(), kInput, parts);
-    EXPECT_FALSE(fs::exists(output));
-  };
-  files.write(0, 3);
-  files.writeFrame(1, [](Channels& channels) { channels.erase("Normal.Y"); });
-  expectBad({"noisy_0001.exr", "Normal.Y"});
-  SyntheticSequence(input, 5, 5).writeFrame(1);
-  expectBad({"noisy_0001.exr", "5 x 5", "24 x 18"});
-  fs::remove(files.frameFile(1));
-  expectBad({"frame 1 is missing"});
-  files.writeFrame(1);
-  files.writeCameras(0, 2);
-  expectBad({"cameras.json", "frame 3"});
-  fs::remove(input / "cameras.json");
-  expectBad({"cameras.json"});
-  files.writeCameras(0, 3);
-  test::writeText(files.frameFile(2), "not an image");
-  expectBad({"noisy_0002.exr"});
-}
-
-TEST_F(ProgramTest, ATruncatedFrameLeavesTheFinishedOnesWhole) {
-  files.write(0, 3);
-  const std::string whole = test::readText(files.frameFile(2));
-  test::writeText(files.frameFile(2), whole.substr(0, whole.size() / 2));
-  expectFailure(denoise(), kInput, {"noisy_0002.exr", "truncated or damaged"});
-  for (const std::string& name : outputFiles()) {
-    EXPECT_TRUE(name == "denoised_0000.exr" || name == "denoised_0001.exr") << name;
-    expectFinite(readIndirect(output / name));
-  }
-}
-
-TEST_F(ProgramTest, ASingularCameraIsNamed) {
-  files.write(0, 0);
-  std::string cameras = test::readText(input / "cameras.json");
-  auto document = nlohmann::json::parse(cameras);
-  document["frames"][0]["view"] = std::vector<double>(16, 0.0);
-  document["frames"][0]["prev_view"] = std::vector<double>(16, 0.0);
-  test::writeText(input / "cameras.json", document.dump());
-  expectFailure(denoise(), kInput, {"camera of frame 0"});
-}
-
-TEST_F(ProgramTest, NoVulkanDeviceIsSaid) {
-  files.write(0, 0);
-  const ProcessOptions options{{{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}}, {}};
-  expectFailure(denoise({}, options), kDevice, {"Vulkan"});
-  expectFailure(walr({"denoise", "--list-devices"}, options), kDevice, {"Vulkan"});
-}
-
-TEST_F(ProgramTest, ADeviceThatLacksSomethingIsToldWhat) {
-  files.write(0, 0);
-  // The run ends before the first command buffer, so that there is nothing for the validation layer to check.
-  const auto denoiseOnPoorDevice = [&](const char* lacks) {
-    return walr({"denoise", input, "--output", output}, {{{"VK_LAYER_PATH", WALR_LACKING_LAYER},
-                                                          {"VK_INSTANCE_LAYERS", "VK_LAYER_WALR_lacking"},
-                                                          {"WALR_TEST_LACKS", lacks}},
-                                                         {}});
-  };
-  expectSuccess(denoiseOnPoorDevice("nothing"));
-  expectFailure(denoiseOnPoorDevice("synchronization2"), kDevice, {"lacks", "synchronization2", "driver"});
-  expectFailure(denoiseOnPoorDevice("storage images"), kDevice, {"lacks", "storage image", "format"});
-}
-
-TEST_F(ProgramTest, AnUnknownDeviceIsNamed) {
-  files.write(0, 0);
-  expectFailure(denoise({"--device", "abacus"}), kDevice, {"abacus"});
-  expectFailure(denoise({"--device", "99"}), kDevice, {"99"});
-}
-
-TEST_F(ProgramTest, ListsDevices) {
-  const ProcessResult result = walr({"denoise", "--list-devices"});
-  expectSuccess(result);
-  EXPECT_EQ(result.out.rfind("0: ", 0), 0U) << result.out;
-}
-
-TEST_F(ProgramTest, AnOutputThatCannotBeMadeIsNamed) {
-  files.write(0, 0);
-  test::writeText(output, "a file");
-  expectFailure(denoise(), kOutput, {output.string(), "not a directory"});
-}
-
-// A limit on file sizes makes a write fail midway, as a full disk does.
-TEST_F(ProgramTest, AFullOutputLeavesNoPartialFile) {
-  const auto limited = [](std::uint64_t bytes) { return ProcessOptions{.environment = {}, .largestFileBytes = bytes}; };
-  // The first file, which says what is rendered, is smaller than that, and a frame is larger.
-  expectFailure(walr({"render", WALR_SCENES "/box.gltf", "--tracer", "cpu", "--output", output.string(), "--frames",
-                      "0-1", "--size", "64x36"},
-                     limited(8192)),
-                kOutput, {"noisy_0000.exr", "File too large"});
-  EXPECT_EQ(outputFiles(), std::vector<std::string>{"render.json"});
-  fs::remove_all(output);
-
-  files.write(0, 1);
-  const ProcessResult denoised = denoise({}, limited(200));
-  // The software device of Mesa 25 keeps its memory in a file, for which the limit holds, too.
-  if (denoised.exitCode == kDevice) {
-    expectFailure(denoised, kDevice, {"memory lies in a file that cannot grow", "ulimit -f"});
-  } else {
-    expectFailure(denoised, kOutput, {"denoised_0000.exr", "File too large"});
-  }
-  EXPECT_TRUE(outputFiles().empty());
-}
-
-TEST_F(ProgramTest, AFullStandardOutputIsSaid) {
-  for (const char* command : {"graph --json", "denoise --list-devices", "graph --list-passes", "--help"}) {
-    const std::string line = std::string(WALR_PROGRAM) + " " + command + " > /dev/full";
-    expectFailure(test::runProcess({"/bin/sh", "-c", line}), kOutput, {"standard output"});
-  }
-}
-
-TEST_F(ProgramTest, SettingsAtOddsAreAnErrorOfTheCommandLine) {
-  expectFailure(walr({"graph", "--set", "accumulation.antilag-high=0"}), kUsage, {"--method walr", "antilag"});
-}
-
-TEST_F(ProgramTest, ANumberThatIsNoneIsRefused) {
-  for (const char* speed : {"nan", "inf", "0", "-1", "24x"}) {
-    expectFailure(walr({"render", WALR_SCENES "/box.gltf", "--output", output, "--fps", speed}), kUsage, {"--fps"});
-  }
-}
-
-TEST_F(ProgramTest, AReportThatCannotBeWrittenIsNamed) {
-  files.write(0, 0);
-  expectFailure(denoise({"--json", (directory.path() / "nowhere" / "a.json").string()}), kOutput, {"a.json"});
-}
-
-class NonFiniteChannelTest : public ProgramTest, public testing::WithParamInterface<const char*> {};
-
-TEST_P(NonFiniteChannelTest, IsRefusedOrReplaced) {
-  files.write(0, 1);
-  for (const int frame : {0, 1}) {
-    files.writeFrame(frame, [](Channels& channels) {
-      Image& plane = channels.at(GetParam());
-      plane.at(10, 9, 0) = std::numeric_limits<float>::quiet_NaN();
-      plane.at(11, 9, 0) = std::numeric_limits<float>::infinity();
-      plane.at(3, 4, 0) = -std::numeric_limits<float>::infinity();
-    });
-  }
-  expectFailure(denoise({"--composite"}), kInput, {"noisy_0000.exr", GetParam(), "3 value(s)", "--non-finite replace"});
-  EXPECT_TRUE(outputFiles().empty());
-  const ProcessResult result = denoise({"--composite", "--non-finite", "replace"});
-  expectSuccess(result);
-  EXPECT_NE(result.err.find(GetParam()), std::string::npos) << result.err;
-  const Image out = [&] {
-    ExrReader reader(output / "denoised_0001.exr");
-    Image image(reader.width(), reader.height(), 3);
-    reader.read(std::vector<ExrReader::Target>{{"R", &image, 0}, {"G", &image, 1}, {"B", &image, 2}});
-    return image;
-  }();
-  expectFinite(out);
-}
-
-INSTANTIATE_TEST_SUITE_P(EveryChannel, NonFiniteChannelTest,
-                         testing::Values("DiffInd.R", "DiffInd.G", "DiffInd.B", "DiffCol.R", "DiffCol.G", "DiffCol.B",
-                                         "Normal.X", "Normal.Y", "Normal.Z", "Depth.Z", "Vector.X", "Vector.Y",
-                                         "DiffDir.R", "Emit.B"));
 
 TEST_F(ProgramTest, GraphPrintsThePlanWithoutADevice) {
   const ProcessOptions options{{{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}}, {}};
