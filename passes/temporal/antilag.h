@@ -15,6 +15,7 @@ struct AntilagSettings {
   std::uint32_t radius = 3;
   float scoreLow = 2.0F;
   float scoreHigh = 4.3F;
+  float fireflies = 14.0F;
 
   void visitEnabled(SettingVisitor& v) {
     v.visit({"accumulation.antilag", "Shorten history where the light has changed by more than noise explains", "", 0,
@@ -33,14 +34,22 @@ struct AntilagSettings {
     v.visit({"accumulation.antilag-high", "Change of the light from which history does not count", "standard errors",
              0.0, 100.0, "measured"},
             scoreHigh);
+    v.visit(
+        {"accumulation.fireflies",
+         "Samples of a window's history that must be about as bright as one that passes whole; brighter ones are held "
+         "back; 0: off",
+         "samples", 0.0, 1000.0, "measured"},
+        fireflies);
   }
 };
 
 /// Textures that temporal accumulation and antilag exchange: a texel for each tile of 8 x 8 pixels.
 struct Antilag {
-  fg::History factor;  ///< R32_SFLOAT: 0 where history counts in full, 1 where it does not count.
-  /// R32G32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
-  /// history.
+  /// R32G32_SFLOAT: 0 where history counts in full, 1 where it does not count; square of the brightest
+  /// sample that the next frame lets pass.
+  fg::History factor;
+  /// R32G32B32A32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
+  /// history, of squares of samples, and the number of samples.
   fg::Texture tiles;
   /// R32_SFLOAT, a texel for each tile, or invalid: the least factor that the last frame's measurements of the noise
   /// allow (`SteeredHistory`).
@@ -57,8 +66,9 @@ fg::Extent antilagTiles(fg::Extent pixels);
 
 /// Add the pass that computes the antilag factor of this frame. Accumulation reads it in the next frame.
 /// @param antilag as the accumulation of this frame wrote it
+/// @param maxHistory longest history, frames
 /// @returns `Antilag::factor` of this frame
 /// @throws std::invalid_argument if antilag-low is not below antilag-high
-fg::Texture addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings);
+fg::Texture addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings, float maxHistory);
 
 }  // namespace walr

@@ -131,7 +131,7 @@ AccumulatedLight storeMean(const Stage& stage, fg::PassBuilder& pass) {
   if (!stage.antilag) return {.mean = mean};
   Antilag antilag = *stage.antilag;
   antilag.tiles = pass.store("outTiles", antilag.tiles);
-  return {.mean = mean, .antilag = addAntilag(stage.graph, antilag, stage.settings.antilag)};
+  return {.mean = mean, .antilag = addAntilag(stage.graph, antilag, stage.settings.antilag, stage.settings.maxHistory)};
 }
 
 /// The same for a pass that keeps taps.
@@ -171,8 +171,12 @@ std::span<const ViewInfo> accumulationViews(bool withAntilag) {
        "Antilag factor: 0 where history counts in full, 1 where it does not count; longest history that counts; 1 "
        "where that cuts it short",
        {{"shortened-history", "Z"}}},
+      {"fireflies",
+       "1 where this frame's sample is held back as a firefly; what that takes of it, in units of the brightest sample "
+       "that passes; 1 where history is held back",
+       {{"held-back-samples", "X"}, {"held-back-light", "Y"}, {"held-back-history", "Z"}}},
   };
-  return std::span(kViews).first(withAntilag ? kViews.size() : kViews.size() - 1);
+  return std::span(kViews).first(withAntilag ? kViews.size() : kViews.size() - 2);
 }
 
 AccumulatedLight addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,

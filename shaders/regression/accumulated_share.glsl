@@ -229,12 +229,12 @@ void storeSums(Measured pixel) {
 struct FetchedLight {
   vec4 mean;
   vec3 noisy;
-  float antilag;
+  TileLimits limits;
 };
 
 FetchedLight fetchLight(ivec2 p) {
-  const float factor = kAntilag ? antilagAt(antilag, vec2(p)) : 0.0;
-  return FetchedLight(accumulatedAt(p), texelFetch(lighting, p, 0).rgb, factor);
+  const TileLimits limits = kAntilag ? tileLimitsAt(antilag, vec2(p)) : kNoTileLimits;
+  return FetchedLight(accumulatedAt(p), texelFetch(lighting, p, 0).rgb, limits);
 }
 
 // The accumulated light of a pixel after the antilag of this frame, and its residual.
@@ -247,9 +247,10 @@ Accumulated accumulatedWithAntilag(FetchedLight fetched, Shown shown) {
   Accumulated found = Accumulated(shown.surface ? fetched.mean : vec4(0.0), Residual(vec3(0.0), 0.0, 0.0, 0.0));
   if (!(found.mean.a > 0.0)) return found;
   const bool hasLight = isFinite(fetched.noisy);
-  const vec3 light = hasLight ? clampedRadiance(fetched.noisy) : vec3(0.0);
+  const vec3 light =
+      hasLight ? withoutFirefly(clampedRadiance(fetched.noisy), fetched.limits.mostSquare) : vec3(0.0);
   if (kAntilag) {
-    const float longest = longestHistory(fetched.antilag, constants.maxHistory);
+    const float longest = longestHistory(fetched.limits.factor, constants.maxHistory);
     found.mean = withLongestHistory(found.mean, light, hasLight ? 1.0 : 0.0, longestHistoryOf(hasLight, longest));
   }
   found.residual = residualOf(found.mean, light, hasLight, shown.predicted);

@@ -126,21 +126,21 @@ struct Sums {
   WindowDepth window;
 };
 
-// The maximum history length in a block, frames, by the antilag factor at its centre.
-float longestHistoryIn(ivec2 block) {
+// The limits of a block's pixels, those at its centre.
+TileLimits limitsIn(ivec2 block) {
   const vec2 centre = vec2(kBlockSize * block) + 0.5 * float(kBlockSize - 1);
-  return kAntilag ? longestHistory(antilagAt(antilag, centre), constants.maxHistory) : 0.0;
+  return kAntilag ? tileLimitsAt(antilag, centre) : kNoTileLimits;
 }
 
 Sums sumsOf(Place place, uint surfaces, Representative r) {
-  const float longest = longestHistoryIn(place.block);
+  const TileLimits limits = limitsIn(place.block);
   Sums sums = Sums(emptySum(r.x, r.y), emptySum(r.x, r.y), WindowDepth(float(bitCount(surfaces)), 0.0));
   for (int i = 0; i < kPixels; ++i) {
     if ((surfaces >> i & 1u) == 0u) continue;
     const ivec2 texel = firstTexel(place.block) + texelInBlock(place.thread, i), p = pixelOfTexel(texel);
     const float z = max(unpackDepthBesideNormal(texelFetch(depth, texel, 0).x), r.z / kMostDepthRatio);
     const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, texel, 0).x);
-    const vec4 mean = currentLightAt(texel, p, longest);
+    const vec4 mean = currentLightAt(texel, p, limits);
     sums.window.inverse += 1.0 / z;
     if (mean.a == 0.0) continue;
     const float x[kFeatures] = featuresOf(shading, r.z / z - 1.0);

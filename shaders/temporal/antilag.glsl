@@ -1,4 +1,5 @@
-// The antilag factor (antilag.comp): how far history is to be shortened, because the light has changed.
+// What antilag.comp says of a place: the antilag factor, how far history is to be shortened because the light has
+// changed, and how bright a pixel may be.
 #ifndef WALR_ANTILAG_GLSL
 #define WALR_ANTILAG_GLSL
 #include "temporal/antilag.h"
@@ -11,12 +12,31 @@ vec2 amongAntilagTiles(vec2 position) {
   return position / float(kAntilagTile) + (0.5 / float(kAntilagTile) - 0.5);
 }
 
-// The antilag factor at a position in the frame of `factors`, bilinear, clamped at the borders. `position`: in pixels
-// from the centre of the first pixel.
-float antilagAt(sampler2D factors, vec2 position) {
-  const vec2 tile = amongAntilagTiles(position), base = floor(tile);
-  return gatherBilinear(factors, base, tile - base);
+struct TileLimits {
+  float factor;      // Antilag factor.
+  float mostSquare;  // Square of the brightest sample that passes, in its brightest channel; 0: unknown.
+};
+const TileLimits kNoTileLimits = TileLimits(0.0, 0.0);
+
+// The limits at a position in the frame of `tiles`, bilinear, clamped at the borders. `position`: in pixels from the
+// centre of the first pixel.
+TileLimits tileLimitsAt(sampler2D tiles, vec2 position) {
+  const vec2 tile = amongAntilagTiles(position), base = floor(tile), f = tile - base;
+  const vec2 at = (base + 1.0) / vec2(textureSize(tiles, 0));
+  return TileLimits(bilinear(textureGather(tiles, at, 0), f), bilinear(textureGather(tiles, at, 1), f));
 }
+
+float brightestChannel(vec3 c) { return max(max(c.r, c.g), c.b); }
+
+// The factor that holds a brightness back to the root of `mostSquare`, and further where its square is so much larger
+// that there is no room for one of its kind.
+float heldBack(float brightness, float mostSquare) {
+  const float room = mostSquare / max(brightness * brightness, 1e-37);
+  return mostSquare > 0.0 ? min(1.0, min(sqrt(room), kFireflyRoom * room)) : 1.0;
+}
+
+// This frame's light as far as it passes. Accumulation takes it in by the limits of the last frame, which differ little.
+vec3 withoutFirefly(vec3 light, float mostSquare) { return light * heldBack(brightestChannel(light), mostSquare); }
 
 // The maximum history length for an antilag factor, frames: `maxHistory` at factor 0, none at factor 1.
 float longestHistory(float factor, float maxHistory) {

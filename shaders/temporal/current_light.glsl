@@ -11,16 +11,16 @@ layout(constant_id = 4) const bool kAntilag = false;
 uniform texture2D lighting;
 uniform sampler2D antilag;  // Of this frame.
 
-// Accumulated light at a texel that holds the pixel p. `longest`: maximum history length, frames. Without kAntilag it
-// is accumulated light as it is.
-vec4 currentLightAt(ivec2 texel, ivec2 p, float longest) {
+// Accumulated light at a texel that holds the pixel p. Without kAntilag it is accumulated light as it is.
+vec4 currentLightAt(ivec2 texel, ivec2 p, TileLimits limits) {
   const vec4 mean = lightAt(texel);
   if (!kAntilag) return mean;
   const float ofThisFrame = kSparseLight ? 0.0 : 1.0;  // At least: sparse light may have none.
+  const float longest = longestHistory(limits.factor, constants.maxHistory);
   if (!isTooLong(mean.a - ofThisFrame, longest)) return mean;
   const LightSample noisy = lightSampleAt(lighting, p);
   const bool usable = isUsable(noisy);
-  const vec3 y = usable ? clampedRadiance(noisy.radiance) : vec3(0.0);
+  const vec3 y = usable ? withoutFirefly(clampedRadiance(noisy.radiance), limits.mostSquare) : vec3(0.0);
   const float n = usableSamples(noisy);
   return withLongestHistory(mean, y, n, samplesPerFrame(mean.a - n, n) * longestHistoryOf(usable, longest));
 }

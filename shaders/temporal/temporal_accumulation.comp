@@ -4,8 +4,8 @@
 // KEEP_TAPS: also writes motion and accepted taps, so that later stages read their histories without testing again
 // (Meunier & Harada 2022, 4.4; Koskela et al. 2019, 3.5), and at pixels without a surface a mark or the pass-through
 // (history_taps.glsl).
-// ANTILAG: shortens history by the antilag factor of the previous frame, and writes the sums for the next one
-// (antilag.comp).
+// ANTILAG: shortens history by the antilag factor of the previous frame, holds fireflies back, and writes the sums for
+// the next one (antilag.comp).
 // PACKED: the mean is packed light (packed_light.glsl) and holds nothing at pixels without a surface.
 // VIEW: does the same work and writes one of its intermediate values instead of the result; kAntilag says whether
 // antilag is on.
@@ -70,7 +70,7 @@ uniform sampler2D previousAntilag;
 #endif
 #ifdef ANTILAG
 const bool kAntilag = true;
-layout(rg32f) uniform writeonly image2D outTiles;
+layout(rgba32f) uniform writeonly image2D outTiles;
 #elif defined(VIEW)
 layout(constant_id = 5) const bool kAntilag = false;
 #endif
@@ -107,8 +107,6 @@ float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #if defined(ANTILAG) || defined(VIEW)
 #include "temporal/antilag.glsl"
 #include "common/luminance.glsl"
-#endif
-#ifdef ANTILAG
 #include "temporal/antilag_tiles.glsl"
 #endif
 #include "temporal/confidence.glsl"
@@ -164,6 +162,25 @@ ReprojectedHistory readHistory(ivec2 p, float z) {
 }
 
 #if defined(ANTILAG) || defined(VIEW)
+// How far this frame's sample and the history before it are held back.
+struct Fireflies {
+  float sampleFactor;
+  float historyFactor;
+  float square;  // Of the sample's brightness, but no larger than that of one that passes.
+};
+
+// `share`: fireflyShareOfTile. History is as bright as a firefly if this frame's sample does not bear it out.
+Fireflies firefliesIn(ReprojectedHistory found, LightSample noisy, float share) {
+  Fireflies factors = Fireflies(1.0, 1.0, 0.0);
+  if (!kAntilag || !isUsable(noisy)) return factors;
+  const float mostSquare = tileLimitsAt(previousAntilag, found.position).mostSquare;
+  const float now = brightestChannel(clampedRadiance(noisy.radiance)), before = brightestChannel(found.mean.rgb);
+  factors.sampleFactor = heldBack(sqrt(share) * now, mostSquare);
+  factors.square = mostSquare > 0.0 ? min(now * now, mostSquare / max(share, 1e-6)) : now * now;
+  if (before > 2.0 * now) factors.historyFactor = heldBack(found.mean.a / found.perFrame * before, mostSquare);
+  return factors;
+}
+
 // What antilag leaves of a history.
 struct AntilagLimit {
   float factor;
@@ -171,7 +188,7 @@ struct AntilagLimit {
 };
 
 AntilagLimit antilagLimit(ReprojectedHistory found, LightSample noisy) {
-  const float factor = antilagAt(previousAntilag, found.position);
+  const float factor = tileLimitsAt(previousAntilag, found.position).factor;
   const float frames = longestHistoryOf(isUsable(noisy), longestHistory(factor, constants.maxHistory));
   return AntilagLimit(factor, found.perFrame * frames);
 }
@@ -188,8 +205,15 @@ ReprojectedHistory historyWithAntilag(ivec2 p, float z, LightSample noisy) {
   return found;
 }
 
+#if defined(ANTILAG) || defined(VIEW)
+// Of this frame's sample on a surface.
+float brightnessOf(LightSample noisy, float z) {
+  return z > 0.0 && isUsable(noisy) ? brightestChannel(clampedRadiance(noisy.radiance)) : 0.0;
+}
+#endif
+
 #ifdef VIEW
-vec3 viewOf(ivec2 p, float z, LightSample noisy) {
+vec3 viewOf(ivec2 p, float z, LightSample noisy, float share) {
   const bool surface = z > 0.0;
   const bool sampleIsUsable = isUsable(noisy);
   switch (kView) {
@@ -209,15 +233,24 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy) {
       const AntilagLimit limit = antilagLimit(found, noisy);
       return vec3(limit.factor, limit.longest, found.mean.a > limit.longest);
     }
+    case 3u: {
+      if (!surface) return vec3(0.0);
+      const Fireflies factors = firefliesIn(historyWithAntilag(p, z, noisy), noisy, share);
+      const float lost = brightnessOf(noisy, z) * (1.0 - factors.sampleFactor);
+      return vec3(factors.sampleFactor < 1.0, lost > 0.0 ? min(lost * inversesqrt(factors.square), 65536.0) : 0.0,
+                  factors.historyFactor < 1.0);
+    }
   }
   return vec3(0.0);
 }
 
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
-  const float z = depthAt(p);
-  imageStore(outView, p, vec4(viewOf(p, z, lightSampleAt(lighting, p)), 1.0));
+  const bool inside = all(lessThan(p, textureSize(depth, 0)));
+  const LightSample noisy = inside ? lightSampleAt(lighting, p) : kNoLightSample;
+  const float z = inside ? depthAt(p) : 0.0;
+  const float share = fireflyShareOfTile(brightnessOf(noisy, z));
+  if (inside) imageStore(outView, p, vec4(viewOf(p, z, noisy, share), 1.0));
 }
 #else
 #ifdef PACKED
@@ -233,33 +266,45 @@ void storeMean(ivec2 p, vec4 mean) { imageStore(outAccumulated, p, nearestHalf(m
 void storeNoSurface(ivec2 p, vec3 light) { imageStore(outAccumulated, p, vec4(light, 0.0)); }
 #endif
 
-// Accumulates one pixel. Returns the difference for antilag: the luminance of this frame's sample less that of history;
-// 0 if one of them is missing.
-float accumulate(ivec2 p) {
-  const LightSample noisy = lightSampleAt(lighting, p);
+// What antilag sums up over tiles.
+struct PixelSums {
+  float difference;  // Luminance of this frame's sample less that of history; 0 if one of them is missing.
+  float square;      // Fireflies::square.
+  float samples;     // 1 if there is one of this frame.
+};
+const PixelSums kNoSums = PixelSums(0.0, 0.0, 0.0);
+
+// Accumulates one pixel. `share`: fireflyShareOfTile.
+PixelSums accumulate(ivec2 p, float z, LightSample noisy, float share) {
   const bool sampleIsUsable = isUsable(noisy);
-  const float z = depthAt(p);
   if (z == 0.0) {
     const vec3 passed = passThroughLight(noisy.radiance);
     storeNoSurface(p, passed);
 #ifdef KEEP_TAPS
     imageStore(outTaps, p, uvec4(kKeepPassThrough ? packPassThrough(passed) : kNoSurfaceTaps));
 #endif
-    return 0.0;
+    return kNoSums;
   }
 
   const ReprojectedHistory found = historyWithAntilag(p, z, noisy);
-  const vec4 history = found.mean;
-  if (kLightGrid && !isOnLightGrid(p)) return 0.0;
+  if (kLightGrid && !isOnLightGrid(p)) return kNoSums;
+  vec4 history = found.mean;
+  vec3 radiance = clampedRadiance(noisy.radiance);
+#ifdef ANTILAG
+  const Fireflies factors = firefliesIn(found, noisy, share);
+  history.rgb *= factors.historyFactor;
+  radiance *= factors.sampleFactor;
+#endif
   const float samples = lengthWith(history.a, usableSamples(noisy), found.perFrame);
-  const vec3 radiance = clampedRadiance(noisy.radiance);
   const float newest = countedSamples(noisy);
   const vec3 mean = sampleIsUsable ? mix(history.rgb, radiance, newest / max(samples, newest)) : history.rgb;
   storeMean(p, vec4(mean, samples));
 #ifdef ANTILAG
-  return sampleIsUsable && history.a > 0.0 ? luminance(radiance - history.rgb) : 0.0;
+  if (!sampleIsUsable) return kNoSums;
+  const float difference = history.a > 0.0 ? luminance(radiance - history.rgb) : 0.0;
+  return PixelSums(difference, factors.square, 1.0);
 #else
-  return 0.0;
+  return kNoSums;
 #endif
 }
 
@@ -286,9 +331,17 @@ void main() {
 #else
   const bool inside = all(lessThan(p, textureSize(depth, 0)));
 #endif
-  const float difference = inside ? accumulate(p) : 0.0;
+  const LightSample noisy = inside ? lightSampleAt(lighting, p) : kNoLightSample;
+  const float z = inside ? depthAt(p) : 0.0;
 #ifdef ANTILAG
-  sumOverTile(difference);
+  const float share = fireflyShareOfTile(brightnessOf(noisy, z));
+#else
+  const float share = 1.0;
+#endif
+  PixelSums sums = kNoSums;
+  if (inside) sums = accumulate(p, z, noisy, share);
+#ifdef ANTILAG
+  sumOverTile(sums.difference, sums.square, sums.samples);
 #endif
 }
 #endif

@@ -176,9 +176,9 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
     const std::vector<float> antilag = run_->texels<float>(antilag_);
     stages.antilagTiles = reference::Image<glm::dvec2>(tiles);
     stages.antilag = reference::Image<double>(tiles);
-    for (std::size_t i = 0; i < antilag.size(); ++i) {
-      stages.antilagTiles.pixels()[i] = {sums[2 * i], sums[2 * i + 1]};
-      stages.antilag.pixels()[i] = antilag[i];
+    for (std::size_t i = 0; i < stages.antilag.pixels().size(); ++i) {
+      stages.antilagTiles.pixels()[i] = {sums[4 * i], sums[4 * i + 1]};
+      stages.antilag.pixels()[i] = antilag[2 * i];
     }
   }
   for (const Iteration& iteration : iterations_) {
