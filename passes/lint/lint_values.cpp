@@ -89,6 +89,14 @@ void LintJudge::judgeValues() {
     const std::string of = rule.of == kLintPixels ? "pixels" : "pixels with a surface";
     add({rule.name, rule.what + share(count, whole, of), rule.cause, rule.wayOut});
   }
+  if (counts_[kLintFireflies] > 0) {
+    add({"fireflies",
+         "in " + std::to_string(counts_[kLintFireflies]) +
+             " tiles of 8 x 8 pixels one sample is more than a hundred times as bright as all others together",
+         "paths that find a small bright light by chance, or a division by the small probability of a path",
+         "sample such lights directly, or bound what a path may bring; methods with antilag hold such samples back "
+         "(accumulation.fireflies)"});
+  }
   if (conventions_.light.hasAlpha() && counts_[kLintPixels] > 0 && counts_[kLintSamples] == 0) {
     add({"lighting-empty", "no texel of the lighting has an alpha above 0", "the lighting's alpha was not written",
          "write 1, or the number of samples, where there is one, or do not state that the lighting has alpha "

@@ -207,6 +207,29 @@ void countSamples(ivec2 p, LightSample light) {
   count(kLintCountInvalid, !(samples >= 0.0 && samples <= kLargestHalf));
 }
 
+shared float brightness[64];
+
+// In the brightest channel of a sample on a surface.
+float brightnessAt(ivec2 p) {
+  const vec3 light = inside(p) && isSurfaceDepth(depthAt(p)) ? lightSampleAt(lighting, p).radiance : vec3(0.0);
+  return isFinite(light) ? max(max(light.r, light.g), max(light.b, 0.0)) : 0.0;
+}
+
+// All threads of the workgroup must call it.
+void countFireflies(ivec2 p) {
+  brightness[gl_LocalInvocationIndex] = brightnessAt(p);
+  barrier();
+  if (gl_LocalInvocationIndex > 0u) return;
+  float most = 0.0, others = 0.0;
+  uint lit = 0u;
+  for (uint i = 0u; i < 64u; ++i) {
+    others += min(brightness[i], most);
+    most = max(most, brightness[i]);
+    lit += brightness[i] > 0.0 ? 1u : 0u;
+  }
+  count(kLintFireflies, lit > kFireflyNeighbours && most > kFireflyContrast * others);
+}
+
 void countPixel(ivec2 p) {
   const LightSample light = lightSampleAt(lighting, p);
   countSamples(p, light);
@@ -234,6 +257,7 @@ void main() {
   barrier();
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (inside(p)) countPixel(p);
+  countFireflies(p);
   barrier();
   for (uint i = gl_LocalInvocationIndex; i < kLintWords; i += gl_WorkGroupSize.x * gl_WorkGroupSize.y)
     if (partial[i] > 0u) atomicAdd(words[i], partial[i]);

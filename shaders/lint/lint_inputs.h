@@ -84,7 +84,13 @@ const uint kLintRounded = 81;
 const uint kLintSamples = 82;       // Pixels with a sample, whatever its colour.
 const uint kLintCountInvalid = 83;  // Texels whose number of samples is NaN, negative or more than halves can hold.
 
-const uint kLintWords = 84;
+// Tiles of 8 x 8 pixels in which one sample is more than kFireflyContrast times as bright as all others together, if
+// so many of these have light that the tile is no place where few paths find any.
+const uint kLintFireflies = 84;
+const float kFireflyContrast = 100.0;
+const uint kFireflyNeighbours = 16;
+
+const uint kLintWords = 85;
 
 // A random normal that faces the camera has a cosine above c with any direction with probability 1 - c.
 const float kFittingCosine = 0.8;

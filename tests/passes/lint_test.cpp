@@ -150,6 +150,11 @@ std::vector<Case> cases() {
        [=](HostInput& h) {
          h.frame.lighting[{40, 30}].g = kNaN;
        }},
+      {"a firefly",
+       {"fireflies"},
+       [=](HostInput& h) {
+         h.frame.lighting[{40, 30}] = glm::dvec3(0.0, 0.0, 30000.0);
+       }},
       {"depth not finite",
        {"depth-not-finite"},
        [=](HostInput& h) {
