@@ -244,7 +244,7 @@ std::vector<StageType> stagesAndMethods() {
        "Average the noisy lighting over time along its motion",
        false,
        make<AccumulationStageSettings, temporalAccumulation>,
-       {{kAntilagFactor, VK_FORMAT_R32G32_SFLOAT,
+       {{kAntilagFactor, VK_FORMAT_R16G16_SFLOAT,
          "Output of temporal_accumulation and temporal_accumulation_with_taps if accumulation.antilag is on",
          kAntilagTile}}},
       {"temporal_accumulation_with_taps",

@@ -14,7 +14,7 @@ fg::Extent antilagTiles(fg::Extent pixels) {
 
 Antilag declareAntilag(StageGraph graph, fg::Extent pixels, fg::Texture least) {
   const fg::Extent tiles = antilagTiles(pixels);
-  return {graph.history("antilag.factor", {VK_FORMAT_R32G32_SFLOAT, tiles}),
+  return {graph.history("antilag.factor", {VK_FORMAT_R16G16_SFLOAT, tiles}),
           graph.texture("antilag.tiles", {VK_FORMAT_R32G32B32A32_SFLOAT, tiles}), least};
 }
 

@@ -45,8 +45,8 @@ struct AntilagSettings {
 
 /// Textures that temporal accumulation and antilag exchange: a texel for each tile of 8 x 8 pixels.
 struct Antilag {
-  /// R32G32_SFLOAT: 0 where history counts in full, 1 where it does not count; square of the brightest
-  /// sample that the next frame lets pass.
+  /// R16G16_SFLOAT: 0 where history counts in full, 1 where it does not count; the brightest sample that the next frame
+  /// lets pass.
   fg::History factor;
   /// R32G32B32A32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
   /// history, of squares of samples, and the number of samples.

@@ -248,7 +248,7 @@ Accumulated accumulatedWithAntilag(FetchedLight fetched, Shown shown) {
   if (!(found.mean.a > 0.0)) return found;
   const bool hasLight = isFinite(fetched.noisy);
   const vec3 light =
-      hasLight ? withoutFirefly(clampedRadiance(fetched.noisy), fetched.limits.mostSquare) : vec3(0.0);
+      hasLight ? withoutFirefly(clampedRadiance(fetched.noisy), fetched.limits.brightest) : vec3(0.0);
   if (kAntilag) {
     const float longest = longestHistory(fetched.limits.factor, constants.maxHistory);
     found.mean = withLongestHistory(found.mean, light, hasLight ? 1.0 : 0.0, longestHistoryOf(hasLight, longest));

@@ -9,6 +9,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "common/finite.glsl"
 #include "temporal/antilag.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -18,7 +19,7 @@ layout(constant_id = 0) const bool kHasLeast = false;
 layout(constant_id = 1) const int kRadius = 3;  // Of the window of tiles.
 uniform texture2D least;  // Least factor of each tile; of the previous frame's size, and not read where that is another.
 uniform texture2D previous;  // Of what this pass writes.
-layout(rg32f) uniform writeonly image2D outFactor;  // y: square of the brightest sample.
+layout(rg16f) uniform writeonly image2D outFactor;  // y: the brightest sample.
 layout(push_constant) uniform PushConstants { AntilagConstants constants; };
 
 ivec2 tilesOfImage() { return textureSize(tiles, 0); }
@@ -34,7 +35,9 @@ void main() {
   const float score = sum.y > 0.0 ? abs(sum.x) * inversesqrt(sum.y) : 0.0;
   const float factor = clamp((score - constants.scoreLow) / (constants.scoreHigh - constants.scoreLow), 0.0, 1.0);
   const bool hasLeast = kHasLeast && textureSize(least, 0) == size;
-  const float now = sum.w > 0.0 ? constants.mostSquare * sum.z / sum.w : 0.0;
+  const float now = sum.w > 0.0 ? sqrt(constants.mostSquare * sum.z / sum.w) : 0.0;
   const float before = textureSize(previous, 0) == size ? texelFetch(previous, tile, 0).y : 0.0;
-  imageStore(outFactor, tile, vec4(hasLeast ? max(factor, texelFetch(least, tile, 0).x) : factor, max(now, sqrt(now * before)), 0.0, 0.0));
+  const float withLeast = hasLeast ? max(factor, texelFetch(least, tile, 0).x) : factor;
+  const float brightest = min(max(now, sqrt(now * before)), kLargestHalf);
+  imageStore(outFactor, tile, vec4(withLeast, brightest, 0.0, 0.0));
 }

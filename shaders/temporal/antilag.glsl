@@ -14,7 +14,7 @@ vec2 amongAntilagTiles(vec2 position) {
 
 struct TileLimits {
   float factor;      // Antilag factor.
-  float mostSquare;  // Square of the brightest sample that passes, in its brightest channel; 0: unknown.
+  float brightest;  // Sample that passes, in its brightest channel; 0: unknown.
 };
 const TileLimits kNoTileLimits = TileLimits(0.0, 0.0);
 
@@ -28,15 +28,15 @@ TileLimits tileLimitsAt(sampler2D tiles, vec2 position) {
 
 float brightestChannel(vec3 c) { return max(max(c.r, c.g), c.b); }
 
-// The factor that holds a brightness back to the root of `mostSquare`, and further where its square is so much larger
-// that there is no room for one of its kind.
-float heldBack(float brightness, float mostSquare) {
-  const float room = mostSquare / max(brightness * brightness, 1e-37);
-  return mostSquare > 0.0 ? min(1.0, min(sqrt(room), kFireflyRoom * room)) : 1.0;
+// The factor that holds a brightness back to `brightest`, and further where it is so much larger that there is no room
+// for one of its kind.
+float heldBack(float brightness, float brightest) {
+  const float ratio = brightest / max(brightness, 1e-18);
+  return brightest > 0.0 ? min(1.0, min(ratio, kFireflyRoom * ratio * ratio)) : 1.0;
 }
 
 // This frame's light as far as it passes. Accumulation takes it in by the limits of the last frame, which differ little.
-vec3 withoutFirefly(vec3 light, float mostSquare) { return light * heldBack(brightestChannel(light), mostSquare); }
+vec3 withoutFirefly(vec3 light, float brightest) { return light * heldBack(brightestChannel(light), brightest); }
 
 // The maximum history length for an antilag factor, frames: `maxHistory` at factor 0, none at factor 1.
 float longestHistory(float factor, float maxHistory) {

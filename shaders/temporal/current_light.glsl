@@ -20,7 +20,7 @@ vec4 currentLightAt(ivec2 texel, ivec2 p, TileLimits limits) {
   if (!isTooLong(mean.a - ofThisFrame, longest)) return mean;
   const LightSample noisy = lightSampleAt(lighting, p);
   const bool usable = isUsable(noisy);
-  const vec3 y = usable ? withoutFirefly(clampedRadiance(noisy.radiance), limits.mostSquare) : vec3(0.0);
+  const vec3 y = usable ? withoutFirefly(clampedRadiance(noisy.radiance), limits.brightest) : vec3(0.0);
   const float n = usableSamples(noisy);
   return withLongestHistory(mean, y, n, samplesPerFrame(mean.a - n, n) * longestHistoryOf(usable, longest));
 }

@@ -173,11 +173,11 @@ struct Fireflies {
 Fireflies firefliesIn(ReprojectedHistory found, LightSample noisy, float share) {
   Fireflies factors = Fireflies(1.0, 1.0, 0.0);
   if (!kAntilag || !isUsable(noisy)) return factors;
-  const float mostSquare = tileLimitsAt(previousAntilag, found.position).mostSquare;
+  const float brightest = tileLimitsAt(previousAntilag, found.position).brightest;
   const float now = brightestChannel(clampedRadiance(noisy.radiance)), before = brightestChannel(found.mean.rgb);
-  factors.sampleFactor = heldBack(sqrt(share) * now, mostSquare);
-  factors.square = mostSquare > 0.0 ? min(now * now, mostSquare / max(share, 1e-6)) : now * now;
-  if (before > 2.0 * now) factors.historyFactor = heldBack(found.mean.a / found.perFrame * before, mostSquare);
+  factors.sampleFactor = heldBack(sqrt(share) * now, brightest);
+  factors.square = brightest > 0.0 ? min(now * now, brightest * brightest / max(share, 1e-6)) : now * now;
+  if (before > 2.0 * now) factors.historyFactor = heldBack(found.mean.a / found.perFrame * before, brightest);
   return factors;
 }
 
@@ -331,17 +331,15 @@ void main() {
 #else
   const bool inside = all(lessThan(p, textureSize(depth, 0)));
 #endif
+#ifdef ANTILAG
   const LightSample noisy = inside ? lightSampleAt(lighting, p) : kNoLightSample;
   const float z = inside ? depthAt(p) : 0.0;
-#ifdef ANTILAG
   const float share = fireflyShareOfTile(brightnessOf(noisy, z));
-#else
-  const float share = 1.0;
-#endif
   PixelSums sums = kNoSums;
   if (inside) sums = accumulate(p, z, noisy, share);
-#ifdef ANTILAG
   sumOverTile(sums.difference, sums.square, sums.samples);
+#else
+  if (inside) accumulate(p, depthAt(p), lightSampleAt(lighting, p), 1.0);
 #endif
 }
 #endif
