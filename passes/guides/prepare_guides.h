@@ -25,14 +25,6 @@ struct PrepareGuidesSettings {
              "albedo unread",
              "", 0.0, 1.0, "measured"},
             albedoThreshold);
-    v.visit({"guides.tangent-tolerance",
-             "Largest error of inverse depth extrapolated from two neighbours that still show the pixel's surface",
-             "fraction of inverse depth", 0.0, 1e3, "measured"},
-            tangentTolerance);
-    v.visit({"guides.normal-agreement",
-             "Cosine between shading normal and normal from depth below which the shading normal is used for both", "",
-             -1.0, 1.0, "measured"},
-            normalAgreement);
   }
 };
 

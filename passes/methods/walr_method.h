@@ -30,7 +30,7 @@ struct WalrSettings {
              "Meunier & Harada 2022, 4.3"},
             spatialOnly);
     guides.visit(v);
-    accumulation.visit(v);
+    accumulation.visitAmounts(v);
     accumulation.visitStorage(v);
     v.visit(
         {"walr.fit-window",
@@ -41,7 +41,7 @@ struct WalrSettings {
         fitWindow);
     occlusion.visit(v);
     blocks.visit(v);
-    antialiasing.visit(v);
+    antialiasing.visitAmounts(v);
     antialiasing.visitStorage(v);
   }
 };

@@ -45,12 +45,6 @@ struct BlockRegressionSettings {
     v.visit({"blocks.plane-far", "Distance from the plane at which an edge begins", "fraction of depth", 1e-6, 1.0,
              "Meunier & Harada 2022, 4.3"},
             planeFar);
-    v.visit({"blocks.sdf-fraction", "Edge tracing steps by this share of the distance to the nearest edge", "", 0.0,
-             1.0, "Meunier & Harada 2022, 5.2"},
-            sdfFraction);
-    v.visit({"blocks.ridge", "Ridge on the diagonal of the covariance of the features, which are of order 1 or less",
-             "", 1e-9, 1.0, "measured"},
-            ridge);
     v.visit(
         {"blocks.growth-errors",
          "Growth of fine fits: a block joins another's window in full up to this difference of their mean luminances, "
@@ -67,33 +61,17 @@ struct BlockRegressionSettings {
              "The coarse window narrows with this power of the samples per texel of accumulated light; 0: not at all",
              "", 0.0, 1.0, "measured"},
             coarseNarrowing);
-    v.visit({"blocks.coarse-reach", "Distance at which the coarse window ends", "sigma", 1.0, 6.0, "measured"},
-            coarseReach);
-    v.visit({"blocks.coarse-resolution",
-             "Least number of cells that coarse-sigma spans. Cells are as large as it allows: 1, 2 or 4 blocks a side, "
-             "at most 8 pixels, or 8 texels of a light grid, if more than one",
-             "cells", 0.5, 100.0, "measured"},
-            coarseResolution);
     v.visit({"blocks.coarse-growth-errors",
              "Growth of coarse fits: a window joins a cell's in full if the cell's fit predicts its mean light within "
              "this error, and not at all from twice as much on",
              "standard errors", 0.001, 1e6, "measured"},
             coarseGrowthErrors);
     v.visit(
-        {"blocks.coarse-growth-occlusion",
-         "Near occluders coarse-growth-errors is divided by 1 + this x ambient occlusion", "", 0.0, 100.0, "measured"},
-        coarseGrowthOcclusion);
-    v.visit(
         {"blocks.coarse-samples",
          "Samples that the coarse fit counts for in the mixture with a fine fit of W samples; in pictures higher than "
          "360 pixels it is divided by (height / 360)^2",
          "samples", 0.0, 1e6, "measured"},
         coarseSamples);
-    v.visit({"blocks.coarse-least-share",
-             "The coarse fit is left out, to save time, where its share of the mixture is below this; from twice as "
-             "much on it counts in full",
-             "", 1e-6, 0.5, "measured"},
-            coarseLeastShare);
     share.visit(v);
   }
 };

@@ -46,18 +46,32 @@ struct FormerSetting {
   std::string_view wayOut;  ///< What to do instead, if it was removed.
 };
 
+constexpr std::string_view kFixed = "its value, which was measured, is fixed; leave it out";
+
 constexpr std::array kFormerSettings{
     FormerSetting{"accumulation.max-samples", "accumulation.max-history", {}},
     FormerSetting{"accumulation.max-moment-samples", "accumulation.max-moment-history", {}},
     FormerSetting{"antialiasing.max-samples", "antialiasing.max-history", {}},
     FormerSetting{"fitted.max-samples", "fitted.max-history", {}},
     FormerSetting{"accumulation.respond-to-change", "accumulation.antilag", {}},
-    FormerSetting{"accumulation.change-radius", "accumulation.antilag-radius", {}},
+    FormerSetting{"accumulation.change-radius", {}, kFixed},
+    FormerSetting{"accumulation.antilag-radius", {}, kFixed},
     FormerSetting{"accumulation.change-low", "accumulation.antilag-low", {}},
     FormerSetting{"accumulation.change-high", "accumulation.antilag-high", {}},
     FormerSetting{"walr.filter", {}, "method walr regresses over blocks of pixels, method walr_paper over pixels"},
     FormerSetting{"occlusion.steps", {}, "occlusion.rings counts rings of four pixels, two for a former step"},
     FormerSetting{"blocks.sort-tiles", {}, "tiles are no longer sorted; leave it out"},
+    FormerSetting{"blocks.sdf-fraction", {}, kFixed},
+    FormerSetting{"blocks.ridge", {}, kFixed},
+    FormerSetting{"blocks.coarse-reach", {}, kFixed},
+    FormerSetting{"blocks.coarse-resolution", {}, kFixed},
+    FormerSetting{"blocks.coarse-growth-occlusion", {}, kFixed},
+    FormerSetting{"blocks.coarse-least-share", {}, kFixed},
+    FormerSetting{"antialiasing.edge-clip-gamma", {}, kFixed},
+    FormerSetting{"antialiasing.filter-radius", {}, kFixed},
+    FormerSetting{"antialiasing.history-sharpness", {}, kFixed},
+    FormerSetting{"guides.tangent-tolerance", {}, kFixed},
+    FormerSetting{"guides.normal-agreement", {}, kFixed},
 };
 
 /// Number of letters to insert, delete or replace to turn one text into the other.

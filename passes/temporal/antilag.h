@@ -24,10 +24,6 @@ struct AntilagSettings {
   }
   void visit(SettingVisitor& v) {
     visitEnabled(v);
-    v.visit({"accumulation.antilag-radius",
-             "Radius of the window of tiles, 8 x 8 pixels each, over which the change is measured", "tiles", 0, 8,
-             "measured"},
-            radius);
     v.visit({"accumulation.antilag-low", "Change of the light up to which history counts in full; below antilag-high",
              "standard errors", 0.0, 100.0, "measured"},
             scoreLow);

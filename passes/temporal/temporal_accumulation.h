@@ -33,18 +33,22 @@ struct TemporalAccumulationSettings {
              255.0, "Meunier & Harada 2022, 4.2"},
             maxHistory);
   }
+  /// For methods that have one way to test and to read history.
+  void visitAmounts(SettingVisitor& v) {
+    visitMaxHistory(v);
+    visitThresholds(v, "accumulation.plane-tolerance", "accumulation.normal-threshold", thresholds);
+    antilag.visit(v);
+  }
   void visit(SettingVisitor& v) {
     static constexpr std::string_view kFilters[] = {"bilinear", "bicubic"};
-    visitMaxHistory(v);
+    visitAmounts(v);
     visitRejection(v, "accumulation.rejection", rejection);
-    visitThresholds(v, "accumulation.plane-tolerance", "accumulation.normal-threshold", thresholds);
     v.visitEnum(
         {"accumulation.history-filter", "How history is read between pixels", "", 0, 1, "Meunier & Harada 2022, 4.2"},
         kFilters, historyFilter);
     v.visit({"accumulation.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
              "Meunier & Harada 2022, 4.2"},
             dilateMotion);
-    antilag.visit(v);
   }
   /// For methods and stages whose filter can read both storages.
   void visitStorage(SettingVisitor& v) {

@@ -33,7 +33,8 @@ struct TemporalAntialiasingSettings {
   /// `LightStorage::Half`.
   bool accumulates = false;
 
-  void visit(SettingVisitor& v) {
+  /// For methods that have one way to test and to clip history.
+  void visitAmounts(SettingVisitor& v) {
     v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1,
              "Meunier & Harada 2022, 4.4"},
             enabled);
@@ -43,43 +44,27 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
              "Meunier & Harada 2022, 4.4"},
             clipGamma);
-    if (!accumulates) {
-      v.visit({"antialiasing.edge-clip-gamma",
-               "Most that clip-gamma is in a jittered frame where history of another surface mixes in: the tests of "
-               "history reject a pixel of it",
-               "standard deviations", 0.0, 1e6, "measured"},
-              edgeClipGamma);
-    }
-    v.visit({"antialiasing.clip-radius", "Radius of the neighbourhood for variance clipping; 1 is 3x3", "pixels", 1, 8,
-             "Meunier & Harada 2022, 4.4"},
-            clipRadius);
-    visitRejection(v, "antialiasing.rejection", rejection);
     visitThresholds(v, "antialiasing.plane-tolerance", "antialiasing.normal-threshold", thresholds);
     v.visit({"antialiasing.object-ids", "Tell surfaces apart by the host's object numbers, too, where it gives them",
              "", 0, 1, "Wang 2024, 3"},
             objectIds);
-    v.visit({"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
-             "Meunier & Harada 2022, 4.2"},
-            dilateMotion);
     if (!accumulates) {
       v.visit({"antialiasing.pixel-area",
                "In jittered frames, average light over the pixel's area: history is not tested, whatever surface it "
                "shows, and follows the nearest surface of the 3x3 neighbourhood",
                "", 0, 1, "measured"},
               pixelArea);
-      v.visit(
-          {"antialiasing.filter-radius",
-           "Half width of the tent filter that estimates the mean over a pixel's area from the samples of one jittered "
-           "frame in and around it; 0.5 takes the pixel's own sample. No effect without pixel-area",
-           "pixels", 0.5, 1.0, "Karis 2014"},
-          filterRadius);
-      v.visit(
-          {"antialiasing.history-sharpness",
-           "Sharpness of the bicubic filter that reads the history in a jittered frame, -a of Keys 1981, equation 4; "
-           "0.5 is Catmull-Rom, which other frames use. No effect without pixel-area",
-           "", 0.0, 1.0, "Keys 1981"},
-          historySharpness);
     }
+  }
+  void visit(SettingVisitor& v) {
+    visitAmounts(v);
+    v.visit({"antialiasing.clip-radius", "Radius of the neighbourhood for variance clipping; 1 is 3x3", "pixels", 1, 8,
+             "Meunier & Harada 2022, 4.4"},
+            clipRadius);
+    visitRejection(v, "antialiasing.rejection", rejection);
+    v.visit({"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
+             "Meunier & Harada 2022, 4.2"},
+            dilateMotion);
   }
   /// For methods and stages whose filter can write both storages.
   void visitStorage(SettingVisitor& v) {

@@ -47,10 +47,11 @@ static void test_settings(WalrDenoiser denoiser) {
   EXPECT(walr_use_preset(denoiser, "magic"), WALR_ERROR_INVALID_ARGUMENT, "known presets");
   char value[8];
   size_t size = 1;
-  EXPECT(walr_get_setting(denoiser, "blocks.sdf-fraction", value, &size), WALR_ERROR_INVALID_ARGUMENT, "needs 5 bytes");
-  EXPECT_TRUE(size == strlen("0.75") + 1);
-  EXPECT_OK(walr_get_setting(denoiser, "blocks.sdf-fraction", value, &size));
-  EXPECT_TRUE(strcmp(value, "0.75") == 0);
+  EXPECT(walr_get_setting(denoiser, "blocks.coarse-narrowing", value, &size), WALR_ERROR_INVALID_ARGUMENT,
+         "needs 4 bytes");
+  EXPECT_TRUE(size == strlen("0.6") + 1);
+  EXPECT_OK(walr_get_setting(denoiser, "blocks.coarse-narrowing", value, &size));
+  EXPECT_TRUE(strcmp(value, "0.6") == 0);
   EXPECT(walr_get_setting(denoiser, "magic", value, &size), WALR_ERROR_INVALID_ARGUMENT, "\"magic\"");
   EXPECT(walr_resize(denoiser, 0, 1), WALR_ERROR_INVALID_ARGUMENT, "0 x 1");
   /* Settings that contradict each other are reported when they are first used, and can be corrected. */

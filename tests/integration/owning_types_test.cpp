@@ -73,10 +73,10 @@ TEST_F(OwningTypes, ThrowTheLastError) {
 TEST_F(OwningTypes, ReturnWhatTheCFunctionsWrite) {
   const WalrDenoiserInfo described = info();
   cpp::Denoiser denoiser(described);
-  EXPECT_EQ(denoiser.setting("blocks.sdf-fraction"), "0.75");
-  denoiser.setSetting("blocks.sdf-fraction", "0.5");
-  EXPECT_EQ(denoiser.setting("blocks.sdf-fraction"), "0.5");
-  denoiser.setSetting("blocks.sdf-fraction", "0.75");
+  EXPECT_EQ(denoiser.setting("blocks.coarse-narrowing"), "0.6");
+  denoiser.setSetting("blocks.coarse-narrowing", "0.5");
+  EXPECT_EQ(denoiser.setting("blocks.coarse-narrowing"), "0.5");
+  denoiser.setSetting("blocks.coarse-narrowing", "0.6");
   const WalrImageRequirements needs = denoiser.imageRequirements("depth");
   EXPECT_EQ(needs.width, 64U);
   const WalrImage image = cpp::describe(VK_NULL_HANDLE, needs);

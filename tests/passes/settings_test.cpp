@@ -70,7 +70,6 @@ TEST(Settings, FormerNamesAreRejectedWithTheReplacement) {
   for (const auto& [former, now] : {std::pair{"accumulation.max-samples", "accumulation.max-history"},
                                     {"antialiasing.max-samples", "antialiasing.max-history"},
                                     {"accumulation.respond-to-change", "accumulation.antilag"},
-                                    {"accumulation.change-radius", "accumulation.antilag-radius"},
                                     {"accumulation.change-low", "accumulation.antilag-low"},
                                     {"accumulation.change-high", "accumulation.antilag-high"}}) {
     EXPECT_EQ(unknown("walr", former),
@@ -84,6 +83,8 @@ TEST(Settings, FormerNamesAreRejectedWithTheReplacement) {
           .find("there is no setting \"accumulation.respond-to-change\" here: it is called accumulation.antilag now, "
                 "which is not a setting here either; near ones: accumulation."),
       0U);
+  EXPECT_EQ(unknown("walr", "blocks.sdf-fraction"),
+            "there is no setting \"blocks.sdf-fraction\" here: its value, which was measured, is fixed; leave it out");
   EXPECT_EQ(unknown("walr", "blocks.sort-tiles"),
             "there is no setting \"blocks.sort-tiles\" here: tiles are no longer sorted; leave it out");
 }
