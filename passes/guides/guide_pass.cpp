@@ -67,12 +67,14 @@ PrepareGuidesConstants guideConstants(const fg::Graph& graph, const DenoiserInpu
   const float radius = std::max(occlusion.radius * static_cast<float>(extent.height), 1.0F);
   PrepareGuidesConstants constants{
       settings.albedoThreshold, settings.tangentTolerance, settings.normalAgreement, 1.0F / radius, {}, {}};
-  // Distances grow with the square of the ring's number and end before the radius, where nothing counts.
+  // Distances grow by equal factors, from the next pixel, so that contacts are seen, to 2/3 of the radius: beyond,
+  // little counts.
   const std::uint32_t rings = ringsOf(occlusion);
+  const float longest = std::max(radius * 2.0F / 3.0F, 1.0F);
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
-    const float share = (static_cast<float>(ring) + 1.5F) / (static_cast<float>(rings) + 1.5F);
+    const float power = rings > 1 ? static_cast<float>(ring) / static_cast<float>(rings - 1) : 0.0F;
     const std::uint32_t nearest = ring / 2 + 1;
-    const float distance = std::max(std::floor(radius * share * share), static_cast<float>(nearest));
+    const float distance = std::max(std::round(std::pow(longest, power)), static_cast<float>(nearest));
     constants.occlusionDistances[ring] = distance;
     constants.inverseOcclusionDistances[ring] = 1.0F / distance;
   }

@@ -9,7 +9,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "common/finite.glsl"
+#include "common/half.glsl"
 #include "temporal/antilag.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -38,6 +38,6 @@ void main() {
   const float now = sum.w > 0.0 ? sqrt(constants.mostSquare * sum.z / sum.w) : 0.0;
   const float before = textureSize(previous, 0) == size ? texelFetch(previous, tile, 0).y : 0.0;
   const float withLeast = hasLeast ? max(factor, texelFetch(least, tile, 0).x) : factor;
-  const float brightest = min(max(now, sqrt(now * before)), kLargestHalf);
-  imageStore(outFactor, tile, vec4(withLeast, brightest, 0.0, 0.0));
+  const float brightest = max(now, sqrt(now * before));
+  imageStore(outFactor, tile, nearestHalf(vec4(withLeast, brightest, 0.0, 0.0)));
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include <glm/gtc/packing.hpp>
+
 #include "shaders/temporal/antilag.h"
 #include "tests/passes/texel_codec.h"
 
@@ -173,12 +175,12 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
   if (antilag_.valid()) {
     const glm::ivec2 tiles = (size_ + kAntilagTile - 1) / kAntilagTile;
     const std::vector<float> sums = run_->texels<float>(antilagTiles_);
-    const std::vector<float> antilag = run_->texels<float>(antilag_);
+    const std::vector<std::uint16_t> antilag = run_->texels<std::uint16_t>(antilag_);
     stages.antilagTiles = reference::Image<glm::dvec2>(tiles);
     stages.antilag = reference::Image<double>(tiles);
     for (std::size_t i = 0; i < stages.antilag.pixels().size(); ++i) {
       stages.antilagTiles.pixels()[i] = {sums[4 * i], sums[4 * i + 1]};
-      stages.antilag.pixels()[i] = antilag[2 * i];
+      stages.antilag.pixels()[i] = double(glm::unpackHalf1x16(antilag[2 * i]));
     }
   }
   for (const Iteration& iteration : iterations_) {

@@ -46,7 +46,8 @@ Image<Bounded> antilagOf(const Image<glm::dvec2>& tiles, const AntilagSettings& 
     // Vulkan allows an inverse square root two units in the last place. A sum errs by a roundoff of each partial sum.
     const double scoreError =
         count * kFloatRoundoff * magnitudes / std::sqrt(sum.y) + (count + 8.0) * kFloatRoundoff * score;
-    antilag[t].error = (scoreError + 4.0 * kFloatRoundoff * (score + settings.scoreHigh)) / range;
+    const double rounding = kHalfRoundoff * antilag[t].value;  // It is stored as a half.
+    antilag[t].error = (scoreError + 4.0 * kFloatRoundoff * (score + settings.scoreHigh)) / range + rounding;
   });
   return antilag;
 }

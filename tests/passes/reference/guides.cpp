@@ -151,8 +151,9 @@ double ambientOcclusion(const HostFrame& frame, glm::ivec2 p, const Surface& sur
     double horizon = 0.0;
     const bool diagonal = direction.x != 0 && direction.y != 0;
     for (std::uint32_t ring = diagonal ? 1 : 0; ring < settings.rings; ring += 2) {
-      const double share = (ring + 1.5) / (settings.rings + 1.5);
-      const int distance = std::max(static_cast<int>(radius * share * share), static_cast<int>(ring / 2) + 1);
+      const double power = settings.rings > 1 ? ring / (settings.rings - 1.0) : 0.0;
+      const double growing = std::round(std::pow(std::max(radius * 2.0 / 3.0, 1.0), power));
+      const int distance = std::max(static_cast<int>(growing), static_cast<int>(ring / 2) + 1);
       const glm::ivec2 q = p + distance * direction;
       const double inverseDepth = inverseDepthAt(frame, q);
       if (inverseDepth == 0.0) continue;
