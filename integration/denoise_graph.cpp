@@ -159,7 +159,7 @@ void declareCounts(DenoiseGraph& declared, const DenoiserInputs& inputs, const D
     declared.inspection.wantCounters(graph.import("counters", fg::BufferDesc{kCounterBytes}, all.states.outputBefore));
   }
   if (all.wanted.lint) {
-    const fg::Buffer counts = graph.import("lint counters", fg::BufferDesc{kCounterBytes}, all.states.outputBefore);
+    const fg::Buffer counts = graph.import("lint counters", fg::BufferDesc{kLintBytes}, all.states.outputBefore);
     declared.lint = addLintInputs(graph, inputs, counts);
     graph.exported(declared.lint, all.states.outputAfter);
   }

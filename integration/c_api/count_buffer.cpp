@@ -4,21 +4,20 @@
 #include <span>
 
 #include "framegraph/vulkan/memory_barrier.h"
-#include "passes/stage/inspection.h"
 
 namespace walr::api {
 
-CountBuffer::CountBuffer(const fg::vk::DeviceContext& device, VkBufferUsageFlags usage, std::uint32_t slots,
-                         const std::string& name)
-    : device_(&device), buffer_(device, fg::BufferDesc{kCounterBytes}, usage, slots, name) {}
+CountBuffer::CountBuffer(const fg::vk::DeviceContext& device, std::uint64_t bytes, VkBufferUsageFlags usage,
+                         std::uint32_t slots, const std::string& name)
+    : device_(&device), words_(bytes / sizeof(std::uint32_t)), buffer_(device, {bytes}, usage, slots, name) {}
 
-std::uint64_t CountBuffer::requiredBytes(const fg::vk::DeviceContext& device, VkBufferUsageFlags usage,
-                                         std::uint32_t slots) {
-  return fg::vk::StagedBuffer::requiredBytes(device, {kCounterBytes}, usage, slots);
+std::uint64_t CountBuffer::requiredBytes(const fg::vk::DeviceContext& device, std::uint64_t bytes,
+                                         VkBufferUsageFlags usage, std::uint32_t slots) {
+  return fg::vk::StagedBuffer::requiredBytes(device, {bytes}, usage, slots);
 }
 
 std::vector<std::uint32_t> CountBuffer::take(std::uint32_t slot) {
-  std::vector<std::uint32_t> words(kCounterWords);
+  std::vector<std::uint32_t> words(words_);
   std::ranges::copy(buffer_.staging(slot), std::as_writable_bytes(std::span(words)).begin());
   buffer_.clearStaging(slot);
   return words;

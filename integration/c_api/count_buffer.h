@@ -8,17 +8,18 @@
 
 namespace walr::api {
 
-/// A buffer of `kCounterWords` words that passes of a frame clear and then count into. The counts of a frame are read
+/// A buffer of words that passes of a frame clear and then count into. The counts of a frame are read
 /// once the GPU has finished it, while other frames are in flight.
 class CountBuffer {
  public:
-  /// @param usage  usage flags of the graph's import that receives the counts
+  /// @param bytes  of the graph's import that receives the counts
+  /// @param usage  its usage flags
   /// @param device must outlive the object
-  CountBuffer(const fg::vk::DeviceContext& device, VkBufferUsageFlags usage, std::uint32_t slots,
+  CountBuffer(const fg::vk::DeviceContext& device, std::uint64_t bytes, VkBufferUsageFlags usage, std::uint32_t slots,
               const std::string& name);
 
   /// Bytes of device memory that a CountBuffer allocates.
-  static std::uint64_t requiredBytes(const fg::vk::DeviceContext& device, VkBufferUsageFlags usage,
+  static std::uint64_t requiredBytes(const fg::vk::DeviceContext& device, std::uint64_t bytes, VkBufferUsageFlags usage,
                                      std::uint32_t slots);
   [[nodiscard]] std::uint64_t allocatedBytes() const { return buffer_.allocatedBytes(); }
   [[nodiscard]] VkBuffer handle() const { return buffer_.handle(); }
@@ -35,6 +36,7 @@ class CountBuffer {
 
  private:
   const fg::vk::DeviceContext* device_;
+  std::size_t words_;
   fg::vk::StagedBuffer buffer_;
 };
 

@@ -19,7 +19,7 @@ class HostedCounters {
   /// @param device   must outlive the object
   HostedCounters(const fg::vk::DeviceContext& device, VkBufferUsageFlags usage, std::vector<Counter> counters,
                  std::uint32_t slots)
-      : buffer_(device, usage, slots, "counters"), counters_(std::move(counters)), pending_(slots) {}
+      : buffer_(device, kCounterBytes, usage, slots, "counters"), counters_(std::move(counters)), pending_(slots) {}
 
   /// The buffer that receives the counters.
   [[nodiscard]] const CountBuffer& buffer() const { return buffer_; }

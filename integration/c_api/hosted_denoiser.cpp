@@ -276,8 +276,8 @@ void HostedDenoiser::recordGraph(VkCommandBuffer commandBuffer, const FrameDescr
   built_->executor->record(commandBuffer, slot);
   if (built_->counters) built_->counters->recordAfter(commandBuffer, slot);
   if (!lint_) return;
-  const bool first = reset || !(built_->lastFrame || built_->inherits);
-  built_->lint->recordAfter(commandBuffer, slot, first ? std::nullopt : std::optional(camera), description_.extent());
+  const bool continues = !reset && (built_->lastFrame || built_->inherits);
+  built_->lint->recordAfter(commandBuffer, slot, {camera, description_.extent(), continues});
 }
 
 /// Read times and counts of the frame that used the slot of the next one: the host has waited for it.
@@ -337,12 +337,14 @@ WalrMemory HostedDenoiser::requiredMemory() {
   const Declared& declared = declare();
   const fg::GraphDesc& graph = declared.graph.graph.desc();
   std::uint64_t bytes = fg::vk::requiredBytes(device().context(), graph, declared.plan, description_.slots());
-  const auto addCounts = [&](fg::Buffer counts) {
+  const auto addCounts = [&](fg::Buffer counts, std::uint64_t size) {
     const fg::PlannedResource& planned = declared.plan.resources[counts.resource];
-    bytes += CountBuffer::requiredBytes(device().context(), planned.bufferUsage, description_.slots());
+    bytes += CountBuffer::requiredBytes(device().context(), size, planned.bufferUsage, description_.slots());
   };
-  if (lint_) addCounts(declared.graph.lint);
-  if (!declared.graph.inspection.counters().empty()) addCounts(declared.graph.inspection.counterBuffer());
+  if (lint_) addCounts(declared.graph.lint, kLintBytes);
+  if (!declared.graph.inspection.counters().empty()) {
+    addCounts(declared.graph.inspection.counterBuffer(), kCounterBytes);
+  }
   return memoryOf(declared.plan.memory, bytes);
 }
 

@@ -32,24 +32,23 @@ class HostedLint {
   /// Evaluate the counts of the frame recorded last with a slot. The GPU must have finished it.
   /// @returns findings with names that were not found before
   std::vector<LintFinding> collect(std::uint32_t slot);
+  /// A recorded frame.
+  struct Frame {
+    FrameDescription camera;
+    fg::Extent extent;
+    bool continues = false;  ///< Whether its history was not reset.
+  };
   /// Record after the graph, or after the pass that counts.
-  /// @param camera nothing for a frame without a previous frame
-  void recordAfter(VkCommandBuffer commandBuffer, std::uint32_t slot, const std::optional<FrameDescription>& camera,
-                   fg::Extent extent);
+  void recordAfter(VkCommandBuffer commandBuffer, std::uint32_t slot, const Frame& frame);
 
   [[nodiscard]] const std::vector<LintFinding>& findings() const { return findings_; }
   /// Counts of the frame that was evaluated last; empty if none was.
   [[nodiscard]] const std::vector<WalrCounter>& counts() const { return counts_; }
 
  private:
-  struct Pending {
-    std::optional<FrameDescription> camera;
-    fg::Extent extent;
-  };
-
   CountBuffer buffer_;
   InputLinter linter_;
-  std::vector<std::optional<Pending>> pending_;  ///< By slot.
+  std::vector<std::optional<Frame>> pending_;  ///< By slot.
   std::vector<LintFinding> findings_;
   std::vector<WalrCounter> counts_;
   std::set<std::string_view> known_;

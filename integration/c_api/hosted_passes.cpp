@@ -143,8 +143,7 @@ void HostedPasses::record(std::uint32_t pass, VkCommandBuffer commandBuffer,
   if (timestamps_) timestamps_->endPass(commandBuffer, recording_->slot(), pass);
   if (ofCounters == CountUse::CountLast) counters_->recordAfter(commandBuffer, recording_->slot());
   if (ofLint == CountUse::CountLast) {
-    lint_->recordAfter(commandBuffer, recording_->slot(),
-                       afterAnother_ ? std::optional(constants_->camera) : std::nullopt, description_.extent());
+    lint_->recordAfter(commandBuffer, recording_->slot(), {constants_->camera, description_.extent(), afterAnother_});
   }
 }
 

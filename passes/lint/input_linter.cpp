@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -30,7 +31,20 @@ std::string LintFinding::text() const {
          ". Way out: " + std::string(wayOut) + ".";
 }
 
-void InputLinter::add(const FrameDescription& frame, fg::Extent extent) {
+void InputLinter::add(std::span<const std::uint32_t> words, const FrameDescription& camera, fg::Extent extent,
+                      bool continues) {
+  counts_.add(words);
+  LintFrame frame{.camera = camera,
+                  .constants = frameConstants(camera, extent),
+                  .size = {extent.width, extent.height},
+                  .continues = continues,
+                  .samples = lintSamples(words, extent, camera.skyDepth)};
+  normals_.add(frame);
+  motion_.add(std::move(frame));
+  if (continues) addProjections(camera, extent);
+}
+
+void InputLinter::addProjections(const FrameDescription& frame, fg::Extent extent) {
   ++cameras_;
   const glm::dvec2 shift = centreOf(frame.projection, extent) - centreOf(frame.previousProjection, extent);
   // Jitter moves the centre by less than two pixels between frames; lens shifts move it more slowly or farther. A
@@ -44,7 +58,7 @@ void InputLinter::add(const FrameDescription& frame, fg::Extent extent) {
 }
 
 std::vector<LintFinding> InputLinter::findings() const {
-  LintJudge judge(counts_, conventions_);
+  LintJudge judge(conventions_, counts_, normals_, motion_);
   if (2 * shiftedCameras_ > cameras_) {
     std::array<char, 64> shift{};
     std::snprintf(shift.data(), shift.size(), "(%.2f, %.2f)", largestShift_.x, largestShift_.y);

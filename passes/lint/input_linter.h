@@ -10,32 +10,39 @@
 #include "passes/conventions/inputs.h"
 #include "passes/lint/lint_finding.h"
 #include "passes/lint/lint_inputs.h"
+#include "passes/lint/lint_normals.h"
+#include "passes/lint/lint_scores.h"
 
 namespace walr {
 
-/// Finds errors in a host's inputs over any number of frames, from the counts of `addLintInputs` and from the cameras.
+/// Finds errors in a host's inputs over any number of frames, from what `addLintInputs` wrote and from the cameras.
 ///
-/// A wrong convention shows on most pixels, an accident of a scene on few. Another reading of the inputs is therefore
-/// preferred to the stated one only if it explains more than half of the pixels that distinguish the two. Albedo in the
+/// A wrong convention shows on most pixels, an accident of a scene on few. Every mistake that hosts make is another
+/// reading of motion, depth and cameras (`lintHypotheses`). The linter scores them all on samples of each frame, and
+/// reports the one that explains motion best, if it explains it clearly better than the stated reading. Albedo in the
 /// lighting is found from pairs of pixels with different albedo: on one surface both receive the same light on average.
 /// So it is found only where surfaces have textures.
 class InputLinter {
  public:
-  explicit InputLinter(const InputConventions& conventions) : conventions_(conventions) {}
+  explicit InputLinter(const InputConventions& conventions)
+      : conventions_(conventions), normals_(conventions), motion_(conventions) {}
 
-  /// Add a frame whose counts are known.
-  /// @param words        words of the buffer that `addLintInputs` wrote
-  /// @param afterAnother whether the history was not reset
-  void add(std::span<const std::uint32_t> words, bool afterAnother) { counts_.add(words, afterAnother); }
-  /// Look at a frame's two cameras, where the history was not reset.
-  void add(const FrameDescription& frame, fg::Extent extent);
+  /// Add the next frame.
+  /// @param words     words of the buffer that `addLintInputs` wrote
+  /// @param extent    the image's
+  /// @param continues whether its history was not reset
+  void add(std::span<const std::uint32_t> words, const FrameDescription& camera, fg::Extent extent, bool continues);
 
   /// What looks wrong so far; causes come before their possible consequences.
   [[nodiscard]] std::vector<LintFinding> findings() const;
 
  private:
+  void addProjections(const FrameDescription& camera, fg::Extent extent);
+
   InputConventions conventions_;
   LintCounts counts_;
+  LintNormals normals_;
+  LintMotion motion_;
   std::uint64_t cameras_ = 0;
   std::uint64_t shiftedCameras_ = 0;  ///< Frames in which the projection's centre moved.
   glm::dvec2 largestShift_{0.0};      ///< Pixels.

@@ -4,6 +4,10 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "framegraph/declare/graph.h"
 #include "passes/conventions/inputs.h"
@@ -11,11 +15,17 @@
 
 namespace walr {
 
-/// Add a pass that counts what is wrong in a host's inputs, and what another convention would explain. It changes
-/// nothing; `InputLinter` turns the counts into text.
-/// @param counters of `kCounterBytes` (passes/stage/inspection.h); overwritten
+/// Bytes of the buffer that receives counts and samples.
+inline constexpr std::uint64_t kLintBytes = kLintWords * sizeof(std::uint32_t);
+
+/// Add a pass that counts what is wrong in a host's inputs, and samples what must agree with the cameras. It changes
+/// nothing; `InputLinter` turns both into text.
+/// @param counters of `kLintBytes`; overwritten
 /// @returns its new version, whose words are those of shaders/lint/lint_inputs.h
 fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buffer counters);
+
+/// With fewer pixels or pairs than this there is no finding.
+inline constexpr std::uint64_t kLeastLintSample = 100;
 
 /// A count of `addLintInputs` that programs may want.
 struct LintCount {
@@ -32,15 +42,7 @@ inline constexpr std::array kLintCounts{
     LintCount{"lint-normal-not-finite", kLintNormalNotFinite},
     LintCount{"lint-normal-zero", kLintNormalZero},
     LintCount{"lint-normal-not-unit", kLintNormalNotUnit},
-    LintCount{"lint-normal-tested", kLintNormalTested},
-    LintCount{"lint-normal-fits", kLintNormalFits},
     LintCount{"lint-motion-not-finite", kLintMotionNotFinite},
-    LintCount{"lint-motion-x-tested", kLintMotionX + kReadingTested},
-    LintCount{"lint-motion-x-as-stated", kLintMotionX + kReadingAsStated},
-    LintCount{"lint-motion-y-tested", kLintMotionY + kReadingTested},
-    LintCount{"lint-motion-y-as-stated", kLintMotionY + kReadingAsStated},
-    LintCount{"lint-motion-z-tested", kLintMotionZ + kReadingTested},
-    LintCount{"lint-motion-z-as-stated", kLintMotionZ + kReadingAsStated},
     LintCount{"lint-lighting-not-finite", kLintLightingNotFinite},
     LintCount{"lint-lighting-negative", kLintLightingNegative},
     LintCount{"lint-lighting-samples", kLintSamples},
@@ -52,14 +54,31 @@ inline constexpr std::array kLintCounts{
 /// Counts of `addLintInputs`, summed over frames.
 class LintCounts {
  public:
-  /// Add a frame.
-  /// @param words        words of the buffer
-  /// @param afterAnother whether motion leads to a previous frame
-  void add(std::span<const std::uint32_t> words, bool afterAnother);
+  /// Add the words of a frame.
+  void add(std::span<const std::uint32_t> words);
   [[nodiscard]] std::uint64_t operator[](std::uint32_t word) const { return sums_[word]; }
+  /// Frames with light, and those of them in which every second pixel, column or row has none.
+  [[nodiscard]] std::uint64_t litFrames() const { return litFrames_; }
+  [[nodiscard]] std::uint64_t halfLitFrames() const { return halfLitFrames_; }
 
  private:
-  std::array<std::uint64_t, kLintWords> sums_{};
+  std::array<std::uint64_t, kLintCountWords> sums_{};
+  std::uint64_t litFrames_ = 0;
+  std::uint64_t halfLitFrames_ = 0;
 };
+
+/// A pixel with a surface: what the host's images hold there and around it.
+struct LintSample {
+  glm::dvec2 pixel;              ///< Its centre.
+  double depth = 0.0;            ///< Along the view axis.
+  std::array<double, 4> around;  ///< Depth left, right, above and below; 0 outside the image.
+  glm::dvec3 normal;
+  glm::dvec3 motion;  ///< Without `FrameDescription::motionScale`.
+};
+
+/// The samples of a frame.
+/// @param words  words of the buffer
+/// @param extent the image's
+std::vector<LintSample> lintSamples(std::span<const std::uint32_t> words, fg::Extent extent, float skyDepth);
 
 }  // namespace walr

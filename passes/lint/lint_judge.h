@@ -9,15 +9,18 @@
 #include "passes/conventions/inputs.h"
 #include "passes/lint/lint_finding.h"
 #include "passes/lint/lint_inputs.h"
+#include "passes/lint/lint_normals.h"
+#include "passes/lint/lint_scores.h"
 
 namespace walr {
 
-/// Draws findings from the counts of `addLintInputs`. Each kind of input has a source file of its own.
+/// Draws findings from what `addLintInputs` wrote. Each kind of input has a source file of its own.
 class LintJudge {
  public:
-  /// Both must outlive the judge.
-  LintJudge(const LintCounts& counts, const InputConventions& conventions)
-      : counts_(counts), conventions_(conventions) {}
+  /// All must outlive the judge.
+  LintJudge(const InputConventions& conventions, const LintCounts& counts, const LintNormals& normals,
+            const LintMotion& motion)
+      : conventions_(conventions), counts_(counts), normals_(normals), motion_(motion) {}
 
   std::vector<LintFinding> take() { return std::move(found_); }
   void add(LintFinding finding) { found_.push_back(std::move(finding)); }
@@ -26,23 +29,21 @@ class LintJudge {
   void judgeDepth();    ///< lint_values.cpp
   void judgeValues();   ///< lint_values.cpp
   void judgeNormals();  ///< lint_normals.cpp
-  void judgeAlbedo();   ///< lint_albedo.cpp
   void judgeMotion();   ///< lint_motion.cpp
+  void judgeAlbedo();   ///< lint_albedo.cpp
 
  private:
-  void judgeAxis(std::string_view axis, std::uint32_t base);
-  void judgeMotionDepth();
-  void judgeJitter();
-  void judgeStillness();
-  [[nodiscard]] bool explains(std::uint32_t hypothesis) const;
+  void judgeMistake(const LintScores& scores, std::size_t best);
+  void judgeCuts();
+  void judgeMotionDepth(const LintScore& score);
+  [[nodiscard]] bool has(std::string_view name) const;
 
-  const LintCounts& counts_;
   const InputConventions& conventions_;
+  const LintCounts& counts_;
+  const LintNormals& normals_;
+  const LintMotion& motion_;
   std::vector<LintFinding> found_;
 };
-
-/// With fewer pixels or pairs than this there is no finding.
-inline constexpr std::uint64_t kLeastLintSample = 100;
 
 /// "12.3 % of 4567 pixels".
 std::string share(std::uint64_t part, std::uint64_t whole, const std::string& of);

@@ -13,8 +13,8 @@ std::string share(std::uint64_t part, std::uint64_t whole, const std::string& of
 }
 
 void LintJudge::judgeOrigin() {
-  const std::uint64_t surfaces = counts_[kLintSurfaces];
-  const std::uint64_t rounded = counts_[kLintRounded];
+  const std::uint64_t surfaces = motion_.surfaces();
+  const std::uint64_t rounded = motion_.rounded();
   if (!isMost(rounded, surfaces)) return;
   add({"origin-far",
        "the camera is so far from the origin that the rounding of its view matrix may move a surface by more than a "
@@ -101,6 +101,14 @@ void LintJudge::judgeValues() {
     add({"lighting-empty", "no texel of the lighting has an alpha above 0", "the lighting's alpha was not written",
          "write 1, or the number of samples, where there is one, or do not state that the lighting has alpha "
          "(WalrConventions::light_masked and light_counted)"});
+  }
+  if (conventions_.light.everyPixel() && counts_.litFrames() > 0 && 2 * counts_.halfLitFrames() > counts_.litFrames()) {
+    add({"lighting-half-empty",
+         "every second pixel, column or row has no light in " + std::to_string(counts_.halfLitFrames()) + " of " +
+             std::to_string(counts_.litFrames()) + " frames with light",
+         "the light is sampled on a checkerboard or in every second column or row, and the other pixels hold 0",
+         "state which pixels have a sample (lightGroup of a sequence, WalrConventions::light_group), or mark them in "
+         "alpha (light_masked)"});
   }
   const std::uint64_t surfaces = counts_[kLintSurfaces];
   if (isMost(counts_[kLintNormalZero], surfaces)) {

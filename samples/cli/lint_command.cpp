@@ -39,8 +39,8 @@ void lint(LintOptions& options) {
   InputLinter linter(layout.conventions);
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     const PackedFrame frame = packFrame(sequence.read(i));
-    linter.add(runner.run(frame).lint, !frame.frame.resetHistory);
-    if (!frame.frame.resetHistory) linter.add(frameDescriptionOf(frame.frame, layout.motionScale), sequence.extent());
+    linter.add(runner.run(frame).lint, frameDescriptionOf(frame.frame, layout.motionScale), sequence.extent(),
+               !frame.frame.resetHistory);
   }
   device.refuseMessages();
   std::vector<LintFinding> findings = linter.findings();

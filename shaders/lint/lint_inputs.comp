@@ -1,18 +1,14 @@
-// Counts what looks wrong in a host's inputs, and which other convention would explain it. lint_inputs.h says what
-// is counted; the files passes/lint/lint_*.cpp draw the conclusions.
+// Counts what looks wrong in a host's values, and takes samples of what must agree with the cameras. lint_inputs.h says
+// what they are; the files passes/lint/lint_*.cpp draw the conclusions.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "conventions/frame.h"
 #include "lint/lint_inputs.h"
-#include "conventions/camera.glsl"
 #include "common/finite.glsl"
+#include "common/hash.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const bool kNormalsInWorldSpace = false;
-layout(constant_id = 1) const bool kMotionDepthGiven = true;
-layout(constant_id = 2) const bool kMotionJittered = true;
-
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform texture2D lighting;
 uniform texture2D depth;
@@ -22,7 +18,7 @@ uniform texture2D albedo;
 layout(std430) buffer counters { uint words[]; };
 #include "conventions/light_sample.glsl"
 
-shared uint partial[kLintWords];
+shared uint partial[kLintCountWords];
 
 void count(uint word, bool condition) {
   if (condition) atomicAdd(partial[word], 1u);
@@ -59,116 +55,6 @@ void countSurfaceValues(vec3 n, vec2 xy, vec3 diffuse) {
   count(kLintAlbedoOutside,
         isFinite(diffuse) && (any(lessThan(diffuse, vec3(0.0))) || any(greaterThan(diffuse, vec3(1.0)))));
   count(kLintDiffuse, isFinite(diffuse) && any(greaterThanEqual(diffuse, vec3(kAlbedoLeast))));
-}
-
-// Whether `given` is `scale` times `expected`, within a quarter.
-bool isTimes(float given, float scale, float expected) {
-  return abs(given - scale * expected) < 0.25 * abs(scale * expected);
-}
-
-void countReading(uint base, float given, float expected, float size) {
-  count(base + kReadingTested, true);
-  uint reading = kReadings;
-  const float scales[4] = float[](1.0, 1.0 / size, 2.0 / size, size);
-  for (uint i = 0u; i < 4u; ++i) {
-    if (isTimes(given, scales[i], expected)) reading = kReadingAsStated + 2u * i;
-    if (isTimes(given, -scales[i], expected)) reading = kReadingAsStated + 2u * i + 1u;
-  }
-  // Smaller than under any of these readings.
-  if (abs(given) * size < 0.25 * abs(expected)) reading = kReadingNone;
-  count(base + reading, reading < kReadings);
-}
-
-// `given`: the host's motion by its stated convention, in pixels, y down.
-void countMotion(ivec2 p, float z, vec2 given, float givenDepth) {
-  const vec3 before = previousPosition(frame.previousViewFromView, rayThrough(frame.rayFromPixel, pixelCentre(p)) * z);
-  if (!(before.z < 0.0) || !isFinite(given)) return;
-  // Motion between the jittered images, because both rays are jittered.
-  const vec2 betweenImages = pixelOf(frame.previousRayFromPixel, before) - pixelCentre(p);
-  const vec2 still = betweenImages - frame.jitterDelta;
-  const vec2 expected = kMotionJittered ? betweenImages : still;
-  const vec2 residual = given - expected;
-  const float jitter = length(frame.jitterDelta);
-
-  const float kLeastMotion = 0.25;  // Pixels. A quarter of it exceeds rounding and a sample's offset in its pixel.
-  if (abs(still.x) > kLeastMotion + 4.0 * jitter)
-    countReading(kLintMotionX, given.x, expected.x, float(textureSize(depth, 0).x));
-  if (abs(still.y) > kLeastMotion + 4.0 * jitter)
-    countReading(kLintMotionY, given.y, expected.y, float(textureSize(depth, 0).y));
-  if (length(still) < 0.05) {
-    count(kLintStillTested, true);
-    count(kLintStillMoves, length(residual) > 0.5 + 2.0 * jitter);
-    const float kMostJitter = 1.5;  // Pixels: jitter within a pixel differs by at most sqrt(2) from frame to frame.
-    const float kRounding = 0.01;   // Pixels: motion below two pixels is off by a thousandth as a half.
-    const vec2 inTheMiddle = texelFetch(motion, textureSize(depth, 0) / 2, 0).xy * frame.motionScale;
-    count(kLintStillMovesAlike, length(residual) > 0.5 + 2.0 * jitter &&
-                                    length(residual) < kMostJitter + 2.0 * jitter &&
-                                    length(given - inTheMiddle) < kRounding);
-  }
-  if (jitter > 0.125) {
-    const vec2 included = kMotionJittered ? -frame.jitterDelta : frame.jitterDelta;
-    const vec2 opposite = kMotionJittered ? -2.0 * frame.jitterDelta : -frame.jitterDelta;
-    count(kLintJitterTested, true);
-    count(kLintJitterAsStated, length(residual) < 0.25 * jitter);
-    count(kLintJitterOther, length(residual - included) < 0.25 * jitter);
-    count(kLintJitterOpposite, length(residual - opposite) < 0.25 * jitter);
-  }
-  const float away = -before.z - z;
-  if (kMotionDepthGiven && abs(away) > 0.005 * z) {
-    count(kLintMotionZ + kReadingTested, true);
-    count(kLintMotionZ + kReadingAsStated, isTimes(givenDepth, 1.0, away));
-    count(kLintMotionZ + kReadingOpposite, isTimes(givenDepth, -1.0, away));
-    count(kLintMotionZ + kReadingNone, abs(givenDepth) < 0.05 * abs(away));
-  }
-}
-
-// View depth from what the host wrote, under a hypothesis, up to a constant factor that does not change slopes.
-float assumedDepth(uint hypothesis, float z, vec3 ray) {
-  switch (hypothesis) {
-    case kHypothesisInverseDepth: return 1.0 / z;
-    case kHypothesisDeviceDepth: return 1.0 / max(1.0 - z, 1e-7);
-    case kHypothesisDistance: return z / length(ray);
-  }
-  return z;
-}
-
-vec3 assumedPosition(uint hypothesis, ivec2 p) {
-  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
-  return ray * assumedDepth(hypothesis, depthAt(p), ray);
-}
-
-// Normal of the surface that depth shows, under a hypothesis.
-vec3 slopeNormal(uint hypothesis, ivec2 p) {
-  return normalize(cross(assumedPosition(hypothesis, p + ivec2(0, 1)) - assumedPosition(hypothesis, p - ivec2(0, 1)),
-                         assumedPosition(hypothesis, p + ivec2(1, 0)) - assumedPosition(hypothesis, p - ivec2(1, 0))));
-}
-
-bool isSmoothAlong(ivec2 p, ivec2 axis, float z) {
-  const float left = depthAt(p - axis), right = depthAt(p + axis);
-  return isSurfaceDepth(left) && isSurfaceDepth(right) &&
-         abs(left + right - 2.0 * z) < 0.1 * abs(right - left) + 1e-3 * z;
-}
-
-vec3 inViewSpace(vec3 n, bool world) { return normalize(world ? mat3(frame.viewFromWorld) * n : n); }
-
-void countNormals(ivec2 p, float z, vec3 n) {
-  if (any(lessThan(p, ivec2(1))) || !inside(p + 1)) return;
-  if (!isUsable(n) || !isSmoothAlong(p, ivec2(1, 0), z) || !isSmoothAlong(p, ivec2(0, 1), z)) return;
-  const vec3 stated = inViewSpace(n, kNormalsInWorldSpace);
-  const float fit = abs(dot(stated, slopeNormal(kHypothesisOtherSpace, p)));
-  if (!isFinite(fit)) return;
-  count(kLintNormalTested, true);
-  count(kLintNormalFits, fit > kFittingCosine);
-  for (uint h = 0u; h < kHypothesisCount; ++h) {
-    vec3 assumed = stated;
-    if (h == kHypothesisOtherSpace) assumed = inViewSpace(n, !kNormalsInWorldSpace);
-    if (h == kHypothesisFlippedY) assumed = inViewSpace(n * vec3(1.0, -1.0, 1.0), kNormalsInWorldSpace);
-    if (h == kHypothesisInverseView && kNormalsInWorldSpace) assumed = normalize(n * mat3(frame.viewFromWorld));
-    const float otherFit = abs(dot(assumed, slopeNormal(h, p)));
-    const float kMargin = 0.02;
-    count(kLintHypotheses + 2u * h, otherFit > fit + kMargin);
-    count(kLintHypotheses + 2u * h + 1u, fit > otherFit + kMargin);
-  }
 }
 
 void countPair(ivec2 p, ivec2 q, float z, vec3 n, LightSample here, vec3 diffuse) {
@@ -237,14 +123,10 @@ void countPixel(ivec2 p) {
   countValues(light.radiance, z);
   if (!isSurfaceDepth(z)) return;
   const vec3 n = normalAt(p);
-  const vec3 given = texelFetch(motion, p, 0).xyz;
   const vec3 diffuse = albedoAt(p);
-  countSurfaceValues(n, given.xy, diffuse);
-  // Each component of the translation is off by half a unit in the last place, in this frame and in the previous one.
-  const float rounding = length(frame.viewFromWorld[3].xyz) * exp2(-24.0) * 2.0;
-  count(kLintRounded, rounding > kMostRounding * z * abs(frame.rayFromPixel.x));
-  countMotion(p, z, given.xy * frame.motionScale, given.z);
-  countNormals(p, z, n);
+  countSurfaceValues(n, texelFetch(motion, p, 0).xy, diffuse);
+  const bool lit = any(notEqual(light.radiance, vec3(0.0)));
+  count((lit ? kLintLit : kLintDark) + uint(p.x & 1) + 2u * uint(p.y & 1), true);
   // Textures have edges at several scales.
   for (int distance = 1; distance <= kAlbedoFarthest; distance *= 2) {
     countPair(p, p + ivec2(distance, 0), z, n, light, diffuse);
@@ -252,13 +134,45 @@ void countPixel(ivec2 p) {
   }
 }
 
+void writeSample(uint word, ivec2 p) {
+  words[word + kSamplePixel] = uint(p.x) | uint(p.y) << 16;
+  words[word + kSampleDepth] = floatBitsToUint(depthAt(p));
+  const ivec2 around[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+  for (uint i = 0u; i < 4u; ++i) {
+    const ivec2 q = p + around[i];
+    words[word + kSampleAround + i] = floatBitsToUint(all(greaterThanEqual(q, ivec2(0))) && inside(q) ? depthAt(q) : 0.0);
+  }
+  const vec3 n = normalAt(p);
+  const vec3 given = texelFetch(motion, p, 0).xyz;
+  for (uint c = 0u; c < 3u; ++c) {
+    words[word + kSampleNormal + c] = floatBitsToUint(n[c]);
+    words[word + kSampleMotion + c] = floatBitsToUint(given[c]);
+  }
+}
+
+void samplePixel(ivec2 p) {
+  const ivec2 size = textureSize(depth, 0);
+  const ivec2 grid = min(ivec2(kLintColumns, kLintRows), size);
+  const ivec2 cell = p * grid / size;
+  const ivec2 first = (cell * size + grid - 1) / grid;
+  const ivec2 end = ((cell + 1) * size + grid - 1) / grid;
+  const uint number = uint(cell.y * grid.x + cell.x);
+  const uint random = hashOfPixel(uvec2(cell), frame.frameIndex, 0u);
+  const ivec2 chosen = first + ivec2(uvec2(random >> 16, random & 0xffffu) % uvec2(end - first));
+  if (p == chosen) writeSample(kLintFirstSample + number * kLintSampleWords, p);
+}
+
 void main() {
-  for (uint i = gl_LocalInvocationIndex; i < kLintWords; i += gl_WorkGroupSize.x * gl_WorkGroupSize.y) partial[i] = 0u;
+  const uint threads = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
+  for (uint i = gl_LocalInvocationIndex; i < kLintCountWords; i += threads) partial[i] = 0u;
   barrier();
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (inside(p)) countPixel(p);
+  if (inside(p)) {
+    countPixel(p);
+    samplePixel(p);
+  }
   countFireflies(p);
   barrier();
-  for (uint i = gl_LocalInvocationIndex; i < kLintWords; i += gl_WorkGroupSize.x * gl_WorkGroupSize.y)
+  for (uint i = gl_LocalInvocationIndex; i < kLintCountWords; i += threads)
     if (partial[i] > 0u) atomicAdd(words[i], partial[i]);
 }

@@ -166,6 +166,22 @@ TEST_F(CApi, LogsEachFindingOnce) {
   EXPECT_EQ(walr_get_findings(run.denoiser(), &count, nullptr), WALR_ERROR_WRONG_ORDER);
 }
 
+// The most frequent mistake of engines, which marks no frame or every frame as a cut.
+TEST_F(CApi, APreviousCameraThatIsThisOneIsToldInTenFrames) {
+  for (const std::uint32_t flags : {0U, std::uint32_t(WALR_FRAME_RESET_HISTORY)}) {
+    HostedRun::Options options;
+    options.lint = true;
+    HostedRun run(device(), "walr", kSize, options);
+    for (std::uint32_t i = 0; i < 10; ++i) {
+      FrameDescription camera = walkingCamera(i, kSize);
+      run.fill(renderFrame(sphere(), camera, kSize));
+      camera.previousView = camera.view;
+      run.frame(camera, flags);
+    }
+    EXPECT_EQ(findingsOf(run.denoiser()), std::vector<std::string>{"camera-still"}) << flags;
+  }
+}
+
 TEST_F(CApi, MemoryEqualsThePlanAndTheAllocations) {
   HostedRun run(device(), "walr", {640, 360});
   require(walr_prepare(run.denoiser()));

@@ -25,10 +25,8 @@ std::vector<std::string> findings(const Sequence& sequence, const std::function<
     Frame frame = sequence.read(i);
     change(frame);
     const PackedFrame packed = packFrame(std::move(frame));
-    linter.add(runner.run(packed).lint, !packed.frame.resetHistory);
-    if (!packed.frame.resetHistory) {
-      linter.add(frameDescriptionOf(packed.frame, layout.motionScale), sequence.extent());
-    }
+    linter.add(runner.run(packed).lint, frameDescriptionOf(packed.frame, layout.motionScale), sequence.extent(),
+               !packed.frame.resetHistory);
   }
   std::vector<std::string> names;
   for (const LintFinding& finding : linter.findings()) names.emplace_back(finding.name);

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include "passes/methods/denoiser.h"
@@ -154,6 +156,50 @@ TEST_F(ProgramTest, LintsWhatItRendered) {
   const ProcessResult result = walr({"lint", input.string(), "--validate"});
   expectSuccess(result);
   EXPECT_NE(result.out.find("4 frames, nothing looks wrong"), std::string::npos) << result.out;
+}
+
+// Mistakes of frames that other people's renderers wrote.
+TEST_F(ProgramTest, LintNamesTheMistakeOfASequence) {
+  const std::string scene = std::string(WALR_SCENES) + "/box.gltf";
+  expectSuccess(walr({"render", scene, "--output", output.string(), "--frames", "8-11", "--size", "96x54",
+                      "--reference-spp", "0", "--jitter"}));
+  const Sequence right(output, {});
+  struct Mistake {
+    const char* finding;
+    std::function<void(Frame&)> make;
+  };
+  const std::vector<Mistake> mistakes{
+      {"camera-still", [](Frame& frame) { frame.camera.previousView = frame.camera.view; }},
+      {"cut-every-frame", [](Frame& frame) { frame.camera.cut = true; }},
+      {"view-inverted",
+       [](Frame& frame) {
+         frame.camera.view = glm::inverse(frame.camera.view);
+         frame.camera.previousView = glm::inverse(frame.camera.previousView);
+       }},
+      {"jitter-missing", [](Frame& frame) { frame.camera.jitter = {}; }},
+      {"lighting-half-empty",
+       [](Frame& frame) {
+         for (int y = 0; y < frame.indirect.height(); ++y) {
+           for (int x = (y + frame.number) % 2; x < frame.indirect.width(); x += 2) {
+             for (int c = 0; c < 3; ++c) frame.indirect.at(x, y, c) = 0.0F;
+           }
+         }
+       }},
+      {"depth-unit",
+       [](Frame& frame) {
+         for (float& depth : frame.depth.values()) depth = depth < kSkyDepth ? 100.0F * depth : depth;
+       }},
+  };
+  for (const Mistake& mistake : mistakes) {
+    for (std::size_t i = 0; i < right.entries().size(); ++i) {
+      Frame frame = right.read(i);
+      mistake.make(frame);
+      writeFrame(input, frame);
+    }
+    const ProcessResult result = walr({"lint", input.string()});
+    expectFailure(result, kInput, {"1 thing looks wrong"});
+    EXPECT_TRUE(result.out.starts_with(std::string(mistake.finding) + ": ")) << mistake.finding << "\n" << result.out;
+  }
 }
 
 /// A file with the channels of Cycles' layout that are always read.
