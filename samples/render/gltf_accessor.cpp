@@ -123,11 +123,12 @@ float loadInteger(const Elements& elements, std::size_t element, std::size_t com
   return elements.normalized ? std::max(value / static_cast<float>(std::numeric_limits<T>::max()), -1.0F) : value;
 }
 
-float loadFloat(const Elements& elements, std::size_t element, std::size_t component, const std::string& what) {
+float loadFloat(const Elements& elements, std::size_t element, std::size_t component, const std::string& what,
+                bool finite = true) {
   switch (elements.componentType) {
     case TINYGLTF_COMPONENT_TYPE_FLOAT: {
       const auto value = load<float>(elements, element, component);
-      if (!std::isfinite(value)) {
+      if (finite && !std::isfinite(value)) {
         throw SceneError(what + ": element " + std::to_string(element) + " is not finite");
       }
       return value;
@@ -159,11 +160,11 @@ std::uint32_t loadIndex(const Elements& elements, std::size_t element, const std
 }
 
 template <typename Vector>
-std::vector<Vector> readVectors(const Elements& elements, const std::string& what) {
+std::vector<Vector> readVectors(const Elements& elements, const std::string& what, bool finite = true) {
   std::vector<Vector> values(elements.count);
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (glm::length_t c = 0; c < Vector::length(); ++c) {
-      values[i][c] = loadFloat(elements, i, static_cast<std::size_t>(c), what);
+      values[i][c] = loadFloat(elements, i, static_cast<std::size_t>(c), what, finite);
     }
   }
   return values;
@@ -215,8 +216,8 @@ std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, con
   return readVectors<glm::vec2>(findElements(model, accessor, TINYGLTF_TYPE_VEC2, what), what);
 }
 
-std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what) {
-  return readVectors<glm::vec3>(findElements(model, accessor, TINYGLTF_TYPE_VEC3, what), what);
+std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what, bool finite) {
+  return readVectors<glm::vec3>(findElements(model, accessor, TINYGLTF_TYPE_VEC3, what), what, finite);
 }
 
 std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what) {

@@ -28,10 +28,11 @@ std::span<const std::uint8_t> bufferBytes(const tinygltf::Model& model, int buff
 std::size_t elementCount(const tinygltf::Model& model, int accessor, const std::string& what);
 
 /// The elements of an accessor of floats or of integers of 8 or 16 bits, which may be normalised
-/// (KHR_mesh_quantization). @throws SceneError also for values that are not finite
+/// (KHR_mesh_quantization). @throws SceneError also for values that are not finite, unless they need not be
 std::vector<float> readScalars(const tinygltf::Model& model, int accessor, const std::string& what);
 std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, const std::string& what);
-std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what);
+std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 bool finite = true);
 std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what);
 
 /// The elements of an accessor of unsigned integers of 8, 16 or 32 bits.

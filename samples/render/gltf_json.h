@@ -9,10 +9,13 @@
 /// What is checked in the JSON text of a file before the parser reads it, so that the message names the true cause.
 namespace walr::render::gltf {
 
+inline constexpr const char* kSpecularGlossinessExtension = "KHR_materials_pbrSpecularGlossiness";
+
 /// Whether the loader renders what an extension says, so that a file may require it.
 bool isSupported(const std::string& extension);
 
-/// Check the text's nesting and size, the version, the required extensions and which buffers have no file.
+/// Check the text's nesting and size, the version, the required extensions, numbers, data URIs and which buffers have
+/// no file.
 /// @param binary  the text is a chunk of a GLB file
 /// @returns another text for the parser if it would refuse this one although it is valid; `restoreAbsentViews` undoes
 /// it

@@ -67,16 +67,31 @@ std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygl
   return assemble(indices, primitive.mode, name);
 }
 
-std::vector<glm::vec3> readNormals(const tinygltf::Model& model, int accessor, const std::string& what) {
-  std::vector<glm::vec3> normals = readVec3s(model, accessor, what);
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const float length = glm::length(normals[i]);
-    if (!(length > 0.0F) || !std::isfinite(length)) {
-      throw SceneError(what + ": element " + std::to_string(i) + " cannot be normalised");
+bool hasDirection(const glm::vec3& vector) {
+  const float length = glm::length(vector);
+  return length > 0.0F && std::isfinite(length);
+}
+
+// Exporters write zeros or NaN for vertices whose triangles have no area. Those get the mean normal of their triangles,
+// weighted by area.
+void readNormals(const tinygltf::Model& model, int accessor, const std::string& what, Mesh& mesh, Scene& scene) {
+  std::vector<glm::vec3>& normals = mesh.normals;
+  normals = readVec3s(model, accessor, what, false);
+  const auto bad = std::ranges::count_if(normals, [](const glm::vec3& n) { return !hasDirection(n); });
+  if (bad > 0) {
+    scene.warnings.push_back(what + ": " + std::to_string(bad) + " of " + std::to_string(normals.size()) +
+                             " have no direction; they get that of their triangles");
+    std::vector<glm::vec3> sums(normals.size(), glm::vec3(0.0F));
+    for (const glm::uvec3& t : mesh.triangles) {
+      const glm::vec3 origin = mesh.positions[t.x];
+      const glm::vec3 doubleArea = glm::cross(mesh.positions[t.y] - origin, mesh.positions[t.z] - origin);
+      for (const std::uint32_t vertex : {t.x, t.y, t.z}) sums[vertex] += doubleArea;
     }
-    normals[i] /= length;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      if (!hasDirection(normals[i])) normals[i] = hasDirection(sums[i]) ? sums[i] : glm::vec3(0.0F, 0.0F, 1.0F);
+    }
   }
-  return normals;
+  for (glm::vec3& normal : normals) normal /= glm::length(normal);
 }
 
 // Linear, clamped to 0..1, with alpha 1 if there is none (specification, 3.7.2.1).
@@ -132,7 +147,7 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
 
   if (const std::optional<int> normal = findAttribute(primitive, "NORMAL")) {
     checkCount(model, *normal, mesh, name + " NORMAL");
-    mesh.normals = readNormals(model, *normal, name + " NORMAL");
+    readNormals(model, *normal, name + " NORMAL", mesh, scene);
   }
   for (const TextureCoordinates& coordinates : material.coordinates) {
     readTextureCoordinates(model, primitive, coordinates, mesh, scene);
