@@ -160,12 +160,17 @@ std::uint32_t loadIndex(const Elements& elements, std::size_t element, const std
 }
 
 template <typename Vector>
-std::vector<Vector> readVectors(const Elements& elements, const std::string& what, bool finite = true) {
+std::vector<Vector> readVectors(const Elements& elements, const std::string& what, std::size_t* flawed) {
   std::vector<Vector> values(elements.count);
   for (std::size_t i = 0; i < values.size(); ++i) {
+    bool finite = true;
     for (glm::length_t c = 0; c < Vector::length(); ++c) {
-      values[i][c] = loadFloat(elements, i, static_cast<std::size_t>(c), what, finite);
+      values[i][c] = loadFloat(elements, i, static_cast<std::size_t>(c), what, flawed == nullptr);
+      finite = finite && std::isfinite(values[i][c]);
     }
+    if (finite) continue;
+    values[i] = Vector(0.0F);
+    ++*flawed;
   }
   return values;
 }
@@ -212,16 +217,19 @@ std::vector<float> readScalars(const tinygltf::Model& model, int accessor, const
   return values;
 }
 
-std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, const std::string& what) {
-  return readVectors<glm::vec2>(findElements(model, accessor, TINYGLTF_TYPE_VEC2, what), what);
+std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed) {
+  return readVectors<glm::vec2>(findElements(model, accessor, TINYGLTF_TYPE_VEC2, what), what, flawed);
 }
 
-std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what, bool finite) {
-  return readVectors<glm::vec3>(findElements(model, accessor, TINYGLTF_TYPE_VEC3, what), what, finite);
+std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed) {
+  return readVectors<glm::vec3>(findElements(model, accessor, TINYGLTF_TYPE_VEC3, what), what, flawed);
 }
 
-std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what) {
-  return readVectors<glm::vec4>(findElements(model, accessor, TINYGLTF_TYPE_VEC4, what), what);
+std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed) {
+  return readVectors<glm::vec4>(findElements(model, accessor, TINYGLTF_TYPE_VEC4, what), what, flawed);
 }
 
 std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int accessor, const std::string& what) {

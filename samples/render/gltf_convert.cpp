@@ -2,14 +2,13 @@
 
 #include <glm/common.hpp>
 
-#include "samples/image/exr_names.h"
 #include "samples/render/scene_error.h"
 
 namespace walr::render::gltf {
 
 std::string partName(const std::string& kind, std::size_t index, const std::string& name) {
   constexpr std::size_t kLongest = 60;
-  const std::string shown = printable(name.substr(0, kLongest)) + (name.size() > kLongest ? "..." : "");
+  const std::string shown = name.substr(0, kLongest) + (name.size() > kLongest ? "..." : "");
   return kind + " " + std::to_string(index) + (name.empty() ? "" : " '" + shown + "'");
 }
 

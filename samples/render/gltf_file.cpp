@@ -1,5 +1,6 @@
 #include "samples/render/gltf_file.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -162,10 +163,11 @@ std::string samePath(const std::string& path, void* /*user*/) {
   return path;
 }
 
-// Without newlines at its end, and short: the parser quotes data URIs.
+// Of one line, and short: the parser quotes data URIs.
 std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 300;
   text.erase(text.find_last_not_of('\n') + 1);
+  std::ranges::replace(text, '\n', ' ');
   return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 

@@ -67,16 +67,24 @@ std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygl
   return assemble(indices, primitive.mode, name);
 }
 
+// Of attributes that only shade. Exporters write NaN where they divided by zero.
+void warnOfFlaws(std::size_t flawed, const std::string& what, Scene& scene) {
+  if (flawed > 0) {
+    scene.warnings.push_back(what + ": " + std::to_string(flawed) + " values are not finite; they are read as zeros");
+  }
+}
+
 bool hasDirection(const glm::vec3& vector) {
   const float length = glm::length(vector);
   return length > 0.0F && std::isfinite(length);
 }
 
-// Exporters write zeros or NaN for vertices whose triangles have no area. Those get the mean normal of their triangles,
+// Exporters write zeros or NaN for vertices of triangles without area. Those get the mean normal of their triangles,
 // weighted by area.
 void readNormals(const tinygltf::Model& model, int accessor, const std::string& what, Mesh& mesh, Scene& scene) {
   std::vector<glm::vec3>& normals = mesh.normals;
-  normals = readVec3s(model, accessor, what, false);
+  std::size_t flawed = 0;
+  normals = readVec3s(model, accessor, what, &flawed);
   const auto bad = std::ranges::count_if(normals, [](const glm::vec3& n) { return !hasDirection(n); });
   if (bad > 0) {
     scene.warnings.push_back(what + ": " + std::to_string(bad) + " of " + std::to_string(normals.size()) +
@@ -95,13 +103,15 @@ void readNormals(const tinygltf::Model& model, int accessor, const std::string& 
 }
 
 // Linear, clamped to 0..1, with alpha 1 if there is none (specification, 3.7.2.1).
-std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& what) {
+std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& what, Scene& scene) {
+  std::size_t flawed = 0;
   std::vector<glm::vec4> colors;
   if (model.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3) {
-    for (const glm::vec3& color : readVec3s(model, accessor, what)) colors.emplace_back(color, 1.0F);
+    for (const glm::vec3& color : readVec3s(model, accessor, what, &flawed)) colors.emplace_back(color, 1.0F);
   } else {
-    colors = readVec4s(model, accessor, what);
+    colors = readVec4s(model, accessor, what, &flawed);
   }
+  warnOfFlaws(flawed, what, scene);
   for (glm::vec4& color : colors) color = glm::clamp(color, 0.0F, 1.0F);
   return colors;
 }
@@ -113,7 +123,9 @@ void readTextureCoordinates(const tinygltf::Model& model, const tinygltf::Primit
   std::vector<glm::vec2> uvs(mesh.positions.size(), glm::vec2(0.0F));
   if (const std::optional<int> uv = findAttribute(primitive, attribute)) {
     checkCount(model, *uv, mesh, mesh.name + " " + attribute);
-    uvs = readVec2s(model, *uv, mesh.name + " " + attribute);
+    std::size_t flawed = 0;
+    uvs = readVec2s(model, *uv, mesh.name + " " + attribute, &flawed);
+    warnOfFlaws(flawed, mesh.name + " " + attribute, scene);
   } else {
     scene.warnings.push_back(mesh.name + ": has no " + attribute + " for its textures; they are sampled at the origin");
   }
@@ -155,7 +167,9 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   if (material.normalTexture && !mesh.normals.empty()) {
     if (const std::optional<int> tangent = findAttribute(primitive, "TANGENT")) {
       checkCount(model, *tangent, mesh, name + " TANGENT");
-      mesh.tangents = readVec4s(model, *tangent, name + " TANGENT");
+      std::size_t flawed = 0;
+      mesh.tangents = readVec4s(model, *tangent, name + " TANGENT", &flawed);
+      warnOfFlaws(flawed, name + " TANGENT", scene);
     } else {
       const std::size_t first = scene.textures[*material.normalTexture].coordinates * mesh.positions.size();
       mesh.tangents = deriveTangents(mesh, std::span(mesh.uvs).subspan(first, mesh.positions.size()));
@@ -165,7 +179,7 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   }
   if (const std::optional<int> color = findAttribute(primitive, "COLOR_0")) {
     checkCount(model, *color, mesh, name + " COLOR_0");
-    mesh.colors = readColors(model, *color, name + " COLOR_0");
+    mesh.colors = readColors(model, *color, name + " COLOR_0", scene);
   }
   if (!primitive.targets.empty()) {
     scene.warnings.push_back(name + ": morph targets are ignored");

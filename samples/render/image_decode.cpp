@@ -9,7 +9,6 @@
 #include <stb_image.h>
 #include <zlib.h>
 
-#include "samples/image/exr_names.h"
 #include "samples/render/scene_error.h"
 
 namespace walr::render {
@@ -84,7 +83,7 @@ Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudge
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
       stbi_load_from_memory(bytes.data(), size, &width, &height, &components, kRgba), &stbi_image_free);
   if (!decoded) {
-    const std::string reason = printable(stbi_failure_reason());  // May hold bytes of the file, or nothing.
+    const std::string reason = stbi_failure_reason();  // Empty at the end of the file.
     throw SceneError("cannot be decoded: " + (reason.empty() ? "it ends too early" : reason));
   }
   texelBudget -= texels;

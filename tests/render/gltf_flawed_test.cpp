@@ -83,6 +83,16 @@ TEST_F(FlawedGltf, NormalsOfTrianglesWithoutAreaAreUnitVectors) {
   EXPECT_EQ(loadWithWarning({"3 of 3"}).meshes[0].normals[0], glm::vec3(0, 0, 1));
 }
 
+TEST_F(FlawedGltf, WhatOnlyShadesMayBeNan) {
+  builder.primitive()["attributes"]["COLOR_0"] =
+      builder.accessor<float>(GltfBuilder::Float, "VEC3", {1, kNan, 1, 0.5F, 0.25F, 1, 1, 1, 1});
+  const Scene scene = loadWithWarning({"COLOR_0: 1 values are not finite"});
+  EXPECT_EQ(scene.meshes[0].colors[0], glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(scene.meshes[0].colors[1], glm::vec4(0.5F, 0.25F, 1, 1));
+  builder.positions({kNan, 0, 0, 1, 0, 0, 0, 1, 0});
+  expectError({"POSITION: element 0 is not finite"});
+}
+
 // JavaScript writes null for NaN. The parser takes an array that holds more than numbers for absent.
 TEST_F(FlawedGltf, NamesWhatIsNoNumber) {
   const Json matrix(std::vector<Json>(16, nullptr));
@@ -172,6 +182,8 @@ TEST_F(FlawedGltf, PrintsNamesSafelyAndShort) {
   const std::string warning = loadWithWarning({"\\x1b[2Jxxx", "..."}).warnings[0];
   EXPECT_LT(warning.size(), 150U);
   EXPECT_EQ(warning.find('\x1b'), std::string::npos);
+  builder.json["extensionsRequired"] = {"\x1b[2J"};
+  expectError({"extension \\x1b[2J"});
 }
 
 // 3.11 wants rising times, but exporters write a jump as two values at one time.

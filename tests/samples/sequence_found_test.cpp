@@ -18,6 +18,7 @@
 #include "samples/image/exr.h"
 #include "samples/sequence/sequence.h"
 #include "tests/error_text.h"
+#include "tests/samples/exr_files.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -89,6 +90,21 @@ TEST_F(FoundSequence, AttributesOfAnotherTypeAreNamed) {
     const ExrReader reader(file);
     fg::test::expectError<InputError>([&] { read(reader); }, parts);
     EXPECT_FALSE(reader.integer("absent").has_value());
+  }
+}
+
+// tinyexr writes channels in the order that it is given; OpenEXR would read the pixels of one as those of another.
+TEST_F(FoundSequence, ChannelsThatAreNotSortedAreRefused) {
+  const std::string sorted = test::exrBytes({.parts = {{.channels = {"A", "B"}}}});
+  const std::size_t first = sorted.find("chlist") + 11;  // After a zero and the size.
+  constexpr std::size_t kEntry = 18;
+  ASSERT_EQ(sorted[first + kEntry], 'B');
+  for (const char* const names : {"BA", "AA"}) {
+    std::string bytes = sorted;
+    bytes[first] = names[0];
+    bytes[first + kEntry] = names[1];
+    std::ofstream(directory.path() / "f0.exr", std::ios::binary) << bytes;
+    expectRefused({"f0.exr", "alphabetical order", names[0] == 'B' ? "(B, A)" : "(A, A)"});
   }
 }
 
