@@ -93,6 +93,13 @@ TEST_F(FoundSequence, AttributesOfAnotherTypeAreNamed) {
   }
 }
 
+// PBRT calls albedo as walr does, and everything else otherwise.
+TEST_F(FoundSequence, AMissingChannelIsToldWithThoseFoundAndTheWayOut) {
+  std::ofstream(directory.path() / "f0.exr", std::ios::binary)
+      << test::exrBytes({.parts = {{.channels = {"Albedo.B", "Albedo.G", "Albedo.R", "B", "G", "Ns.X", "R"}}}});
+  expectRefused({"missing channels Indirect.R", "--channels FILE", "Channels found: Albedo.B, ", "Ns.X, R"});
+}
+
 // tinyexr writes channels in the order that it is given; OpenEXR would read the pixels of one as those of another.
 TEST_F(FoundSequence, ChannelsThatAreNotSortedAreRefused) {
   const std::string sorted = test::exrBytes({.parts = {{.channels = {"A", "B"}}}});
