@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <fstream>
 #include <optional>
 #include <span>
@@ -27,6 +28,7 @@ constexpr std::uintmax_t kAllFiles = std::uintmax_t{1} << 32U;
 struct FilesRead {
   std::uintmax_t budget = kAllFiles;  ///< Bytes left of the limit for all files together.
   Fingerprint* contents = nullptr;    ///< Takes in the bytes; may be null.
+  std::deque<std::size_t> lengths{};  ///< Of the buffers, which are read before the images.
 };
 
 std::vector<unsigned char> readWholeFile(const fs::path& file, const FilesRead& files) {
@@ -152,6 +154,9 @@ bool readFile(std::vector<unsigned char>* bytes, std::string* errors, const std:
   try {
     *bytes = readWholeFile(file, files);
     files.budget -= bytes->size();
+    if (files.lengths.empty()) return true;
+    bytes->resize(std::min(bytes->size(), files.lengths.front()));  // The parser demands this very length.
+    files.lengths.pop_front();
     return true;
   } catch (const SceneError& error) {
     *errors += file + ": " + error.what() + "\n";
@@ -177,7 +182,7 @@ tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* conten
   FilesRead files{.contents = contents};
   std::vector<unsigned char> bytes = readWholeFile(file, files);
   const std::string_view text = jsonText(bytes);
-  std::optional<std::string> json = prepareJson(text, isBinary(bytes));
+  std::optional<std::string> json = prepareJson(text, isBinary(bytes), files.lengths);
   if (isBinary(bytes)) {
     const std::span<const unsigned char> binary = binaryChunk(bytes);
     const bool whole = text.size() % 4 == 0 && binary.size() % 4 == 0 && word(bytes, kFileLengthAt) == bytes.size() &&

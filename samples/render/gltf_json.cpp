@@ -162,7 +162,7 @@ bool isSupported(const std::string& extension) {
          std::ranges::any_of(kOptional, [&](const OptionalExtension& o) { return o.built && o.name == extension; });
 }
 
-std::optional<std::string> prepareJson(std::string_view text, bool binary) {
+std::optional<std::string> prepareJson(std::string_view text, bool binary, std::deque<std::size_t>& fileLengths) {
   checkText(text);
   Json json = Json::parse(text, nullptr, false);
   checkVersion(member(json, "asset"));
@@ -170,12 +170,18 @@ std::optional<std::string> prepareJson(std::string_view text, bool binary) {
   // Views that are only stored compressed lie in buffers without a file.
   const bool onlyCompressed = std::ranges::count(elements(json, "extensionsRequired"), kMeshoptExtension) > 0;
   for (const char* const part : {"nodes", "materials"}) checkNumbers(member(json, part), part);
-  bool changed = false;
+  // Not rendered. The parser demands members of them that the specification does not.
+  bool changed = json.is_object() && json.erase("skins") > 0;
   for (Json& image : elements(json, "images")) changed = plainDataUri(image, "") || changed;
   const std::span<Json> buffers = elements(json, "buffers");
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     Json& buffer = buffers[i];
     changed = plainDataUri(buffer, "buffer " + std::to_string(i)) || changed;
+    const Json& uri = member(buffer, "uri");
+    if (uri.is_string() && !uri.get_ref<const std::string&>().starts_with("data:")) {
+      const Json& length = member(buffer, "byteLength");
+      fileLengths.push_back(length.is_number_unsigned() ? length.get<std::size_t>() : 0);
+    }
     if (!buffer.is_object() || buffer.contains("uri") || (binary && i == 0)) continue;
     if (onlyCompressed) {
       buffer["uri"] = "data:application/octet-stream;base64,AA==";

@@ -154,6 +154,17 @@ TEST_F(FlawedGltf, ReadsContainersWithWrongLengths) {
                                     {"truncated", "binary chunk should have 36 bytes, the file has 30"});
 }
 
+// 3.6.1.1: a buffer may have more bytes than it states. 5.28: a skin needs no inverseBindMatrices.
+TEST_F(FlawedGltf, ReadsWhatTheSpecificationAllowsAndTheParserDoesNot) {
+  builder.json["skins"] = {{{"joints", {0}}}};
+  builder.json["nodes"][0]["skin"] = 0;
+  const auto file = builder.write(directory.path());
+  std::ofstream(directory.path() / "built.bin", std::ios::binary | std::ios::app) << "more";
+  const Scene scene = loadScene(file);
+  EXPECT_EQ(scene.meshes.at(0).positions[1], glm::vec3(1, 0, 0));
+  fg::test::expectContains(scene.warnings.at(0), {"node 0: skinning is not supported"});
+}
+
 // RFC 2397: the media type may have parameters, or be missing. 3.6.1.1: a buffer may hold more than it states.
 TEST_F(FlawedGltf, ReadsDataUrisOfAnyType) {
   // Three vertices, (0, 0, 0), (1, 0, 0), (0, 1, 0), and a byte more.
