@@ -182,9 +182,9 @@ tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* conten
   FilesRead files{.contents = contents};
   std::vector<unsigned char> bytes = readWholeFile(file, files);
   const std::string_view text = jsonText(bytes);
-  std::optional<std::string> json = prepareJson(text, isBinary(bytes), files.lengths);
+  const std::span<const unsigned char> binary = isBinary(bytes) ? binaryChunk(bytes) : std::span<const unsigned char>();
+  std::optional<std::string> json = prepareJson(text, !binary.empty(), files.lengths);
   if (isBinary(bytes)) {
-    const std::span<const unsigned char> binary = binaryChunk(bytes);
     const bool whole = text.size() % 4 == 0 && binary.size() % 4 == 0 && word(bytes, kFileLengthAt) == bytes.size() &&
                        bytes.size() == kHeader + text.size() + (binary.empty() ? 0 : kChunkHeader + binary.size());
     if (json || !whole) bytes = packed(json ? std::move(*json) : std::string(text), binary);

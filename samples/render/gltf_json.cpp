@@ -162,7 +162,7 @@ bool isSupported(const std::string& extension) {
          std::ranges::any_of(kOptional, [&](const OptionalExtension& o) { return o.built && o.name == extension; });
 }
 
-std::optional<std::string> prepareJson(std::string_view text, bool binary, std::deque<std::size_t>& fileLengths) {
+std::optional<std::string> prepareJson(std::string_view text, bool hasChunk, std::deque<std::size_t>& fileLengths) {
   checkText(text);
   Json json = Json::parse(text, nullptr, false);
   checkVersion(member(json, "asset"));
@@ -182,13 +182,14 @@ std::optional<std::string> prepareJson(std::string_view text, bool binary, std::
       const Json& length = member(buffer, "byteLength");
       fileLengths.push_back(length.is_number_unsigned() ? length.get<std::size_t>() : 0);
     }
-    if (!buffer.is_object() || buffer.contains("uri") || (binary && i == 0)) continue;
+    if (!buffer.is_object() || buffer.contains("uri") || (hasChunk && i == 0)) continue;
     if (onlyCompressed) {
       buffer["uri"] = "data:application/octet-stream;base64,AA==";
       buffer["byteLength"] = 1;
       changed = true;
-    } else if (binary) {
-      throw SceneError("buffer " + std::to_string(i) + ": has no uri, which only the first one of a GLB file may lack");
+    } else {
+      throw SceneError("buffer " + std::to_string(i) +
+                       ": has no uri, which only the first one of a GLB file with a binary chunk may lack");
     }
   }
   const std::size_t views = elements(json, "bufferViews").size();

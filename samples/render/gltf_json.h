@@ -18,12 +18,12 @@ bool isSupported(const std::string& extension);
 
 /// Check the text's nesting and size, the version, the required extensions, numbers, data URIs and which buffers have
 /// no file.
-/// @param binary  the text is a chunk of a GLB file
+/// @param hasChunk  the text is that of a GLB file with a binary chunk
 /// @param fileLengths  takes the bytes that are used of each buffer that is a file, in their order
 /// @returns another text for the parser if it would refuse this one although it is valid; `restoreAbsentViews` undoes
 /// it
 /// @throws SceneError
-std::optional<std::string> prepareJson(std::string_view text, bool binary, std::deque<std::size_t>& fileLengths);
+std::optional<std::string> prepareJson(std::string_view text, bool hasChunk, std::deque<std::size_t>& fileLengths);
 
 /// Give the accessors that have no buffer view in the file none in the model.
 void restoreAbsentViews(tinygltf::Model& model);

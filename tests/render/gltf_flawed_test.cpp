@@ -165,6 +165,12 @@ TEST_F(FlawedGltf, ReadsWhatTheSpecificationAllowsAndTheParserDoesNot) {
   fg::test::expectContains(scene.warnings.at(0), {"node 0: skinning is not supported"});
 }
 
+TEST_F(FlawedGltf, NamesABufferWithoutData) {
+  std::ofstream(directory.path() / "empty.gltf") << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4}]})";
+  fg::test::expectError<SceneError>([&] { loadScene(directory.path() / "empty.gltf"); },
+                                    {"buffer 0: has no uri", "GLB file with a binary chunk"});
+}
+
 // RFC 2397: the media type may have parameters, or be missing. 3.6.1.1: a buffer may hold more than it states.
 TEST_F(FlawedGltf, ReadsDataUrisOfAnyType) {
   // Three vertices, (0, 0, 0), (1, 0, 0), (0, 1, 0), and a byte more.
