@@ -85,10 +85,10 @@ TEST_F(FoundSequence, AttributesOfAnotherTypeAreNamed) {
        {"cameraCut", "float", "int"},
        [](const auto& f) { static_cast<void>(f.integer("cameraCut")); }},
   };
-  for (const auto& [add, parts, read] : cases) {
-    write(add);
+  for (const auto& wrong : cases) {
+    write(wrong.add);
     const ExrReader reader(file);
-    fg::test::expectError<InputError>([&] { read(reader); }, parts);
+    fg::test::expectError<InputError>([&] { wrong.read(reader); }, wrong.parts);
     EXPECT_FALSE(reader.integer("absent").has_value());
   }
 }
