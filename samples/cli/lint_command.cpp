@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -37,8 +40,10 @@ void lint(LintOptions& options) {
   const std::unique_ptr<Denoiser> method = makeDenoiser(layout.conventions.light.everyPixel() ? "none" : "accumulate");
   GpuDenoiser runner(device, *method, sequence.extent(), layout, {.lint = true});
   InputLinter linter(layout.conventions);
+  std::vector<NonFiniteChannel> nonFinite;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     const PackedFrame frame = packFrame(sequence.read(i));
+    std::ranges::copy(frame.frame.nonFinite, std::back_inserter(nonFinite));
     linter.add(runner.run(frame).lint, frameDescriptionOf(frame.frame, layout.motionScale), sequence.extent(),
                !frame.frame.resetHistory);
   }
@@ -48,6 +53,16 @@ void lint(LintOptions& options) {
     if (finding.name != "lighting-negative" || !sequence.lossy()) continue;
     finding.cause = "the lossy compression of the files (B44 or DWA), which moves dark values below 0";
     finding.wayOut = "save frames with a lossless compression, such as ZIP or PIZ";
+  }
+  // Without a surface, the linter takes such values for sky.
+  const auto namesThem = [](const LintFinding& finding) { return finding.name.ends_with("-not-finite"); };
+  if (!nonFinite.empty() && std::ranges::none_of(findings, namesThem)) {
+    findings.push_back({"sky-not-finite",
+                        nonFinite[0].file.string() + ": channel " + nonFinite[0].channel + " is NaN or infinite on " +
+                            std::to_string(nonFinite[0].count) + " pixels of the sky; " +
+                            std::to_string(nonFinite.size()) + " channels of all frames have such pixels",
+                        "rays that hit nothing got no finite depth, or other values that were not set",
+                        "write a depth of 1e10 and zeros there, or give walr denoise --non-finite replace"});
   }
   for (const LintFinding& finding : findings) std::cout << finding.text() << '\n';
   std::cout.flush();

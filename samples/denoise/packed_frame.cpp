@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "passes/conventions/orthographic.h"
 #include "samples/errors.h"
 #include "samples/image/half.h"
 
@@ -94,11 +95,15 @@ FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale) {
 }
 
 FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale) {
+  const std::string camera = "camera of frame " + std::to_string(frame.number) + ": ";
+  if (isOrthographic(frame.camera.projection)) {
+    throw InputError(camera + "it is orthographic; the frames of a sequence need a perspective camera");
+  }
   try {
     return frameConstants(frameDescriptionOf(frame, motionScale), {static_cast<std::uint32_t>(frame.depth.width()),
                                                                    static_cast<std::uint32_t>(frame.depth.height())});
   } catch (const std::invalid_argument& error) {
-    throw InputError("camera of frame " + std::to_string(frame.number) + ": " + error.what());
+    throw InputError(camera + error.what());
   }
 }
 

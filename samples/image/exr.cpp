@@ -139,7 +139,7 @@ struct ExrReader::File {
     std::string name;
   };
 
-  File(const std::string& path, const std::string& view) : input(path.c_str()) {
+  File(const std::string& file, const std::string& view) : input(file.c_str()), path(file) {
     findViews();
     if (!view.empty() && std::ranges::find(views, view) == views.end()) {
       throw std::runtime_error("it has no view '" + view + "'; it has " + (views.empty() ? "none" : join(views)));
@@ -159,7 +159,21 @@ struct ExrReader::File {
     return nullptr;
   }
 
+  /// @throws InputError if there is an attribute of this name but of another type
+  template <typename Attribute>
+  [[nodiscard]] const Attribute* require(const std::string& name) const {
+    const auto* const found = find<Attribute>(name);
+    for (int part = 0; found == nullptr && part < input.parts(); ++part) {
+      const auto other = input.header(part).find(name);
+      if (other == input.header(part).end()) continue;
+      throw InputError(path + ": its header attribute " + name + " has the type " +
+                       printable(other.attribute().typeName()) + " in place of " + Attribute::staticTypeName());
+    }
+    return found;
+  }
+
   Imf::MultiPartInputFile input;
+  std::string path;
   std::vector<std::string> views;
   std::map<std::string, Stored> channels;  ///< Of the chosen view, by their names outside of this class.
   std::set<int> parts;                     ///< That have these channels.
@@ -244,17 +258,17 @@ bool ExrReader::lossy() const {
 }
 
 std::optional<glm::mat4> ExrReader::matrix(const std::string& name) const {
-  const auto* attribute = file_->find<Imf::M44fAttribute>(name);
+  const auto* attribute = file_->require<Imf::M44fAttribute>(name);
   return attribute != nullptr ? std::optional(glm::make_mat4(attribute->value().getValue())) : std::nullopt;
 }
 
 std::optional<glm::vec2> ExrReader::vector(const std::string& name) const {
-  const auto* attribute = file_->find<Imf::V2fAttribute>(name);
+  const auto* attribute = file_->require<Imf::V2fAttribute>(name);
   return attribute != nullptr ? std::optional(glm::vec2(attribute->value().x, attribute->value().y)) : std::nullopt;
 }
 
 std::optional<int> ExrReader::integer(const std::string& name) const {
-  const auto* attribute = file_->find<Imf::IntAttribute>(name);
+  const auto* attribute = file_->require<Imf::IntAttribute>(name);
   return attribute != nullptr ? std::optional(attribute->value()) : std::nullopt;
 }
 

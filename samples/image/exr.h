@@ -59,7 +59,8 @@ class ExrReader {
   [[nodiscard]] const std::vector<std::string>& views() const;
   /// Whether the compression of channels changes the values of halves: B44, B44A, DWAA and DWAB do.
   [[nodiscard]] bool lossy() const;
-  /// Header attribute of type M44f; nullopt if it is absent or of another type. The same for the two below.
+  /// Header attribute of type M44f; nullopt if it is absent. The same for the two below.
+  /// @throws InputError if it has another type
   [[nodiscard]] std::optional<glm::mat4> matrix(const std::string& name) const;
   /// Header attribute of type V2f.
   [[nodiscard]] std::optional<glm::vec2> vector(const std::string& name) const;

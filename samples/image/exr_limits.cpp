@@ -117,7 +117,14 @@ Window readTile(Value value) {
 }
 
 void readChannels(Value value, Part& part) {
-  while (!value.terminated().empty()) {
+  std::string last;
+  for (std::string name = std::string(value.terminated()); !name.empty(); name = std::string(value.terminated())) {
+    // The library takes the pixels for sorted, as the format demands, whatever the order of the list.
+    if (name <= last) {
+      throw Fault("its channels are not in alphabetical order (" + printable(last) + ", " + printable(name) +
+                  "), so that their pixels cannot be told apart");
+    }
+    last = name;
     const auto type = value.number<std::int32_t>();
     constexpr std::int32_t kHalf = 1;
     if (type < 0 || type > 2) throw Fault("a channel has the unknown type " + std::to_string(type));

@@ -123,11 +123,12 @@ float loadInteger(const Elements& elements, std::size_t element, std::size_t com
   return elements.normalized ? std::max(value / static_cast<float>(std::numeric_limits<T>::max()), -1.0F) : value;
 }
 
-float loadFloat(const Elements& elements, std::size_t element, std::size_t component, const std::string& what) {
+float loadFloat(const Elements& elements, std::size_t element, std::size_t component, const std::string& what,
+                bool finite = true) {
   switch (elements.componentType) {
     case TINYGLTF_COMPONENT_TYPE_FLOAT: {
       const auto value = load<float>(elements, element, component);
-      if (!std::isfinite(value)) {
+      if (finite && !std::isfinite(value)) {
         throw SceneError(what + ": element " + std::to_string(element) + " is not finite");
       }
       return value;
@@ -159,12 +160,17 @@ std::uint32_t loadIndex(const Elements& elements, std::size_t element, const std
 }
 
 template <typename Vector>
-std::vector<Vector> readVectors(const Elements& elements, const std::string& what) {
+std::vector<Vector> readVectors(const Elements& elements, const std::string& what, std::size_t* flawed) {
   std::vector<Vector> values(elements.count);
   for (std::size_t i = 0; i < values.size(); ++i) {
+    bool finite = true;
     for (glm::length_t c = 0; c < Vector::length(); ++c) {
-      values[i][c] = loadFloat(elements, i, static_cast<std::size_t>(c), what);
+      values[i][c] = loadFloat(elements, i, static_cast<std::size_t>(c), what, flawed == nullptr);
+      finite = finite && std::isfinite(values[i][c]);
     }
+    if (finite) continue;
+    values[i] = Vector(0.0F);
+    ++*flawed;
   }
   return values;
 }
@@ -211,16 +217,19 @@ std::vector<float> readScalars(const tinygltf::Model& model, int accessor, const
   return values;
 }
 
-std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, const std::string& what) {
-  return readVectors<glm::vec2>(findElements(model, accessor, TINYGLTF_TYPE_VEC2, what), what);
+std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed) {
+  return readVectors<glm::vec2>(findElements(model, accessor, TINYGLTF_TYPE_VEC2, what), what, flawed);
 }
 
-std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what) {
-  return readVectors<glm::vec3>(findElements(model, accessor, TINYGLTF_TYPE_VEC3, what), what);
+std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed) {
+  return readVectors<glm::vec3>(findElements(model, accessor, TINYGLTF_TYPE_VEC3, what), what, flawed);
 }
 
-std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what) {
-  return readVectors<glm::vec4>(findElements(model, accessor, TINYGLTF_TYPE_VEC4, what), what);
+std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed) {
+  return readVectors<glm::vec4>(findElements(model, accessor, TINYGLTF_TYPE_VEC4, what), what, flawed);
 }
 
 std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int accessor, const std::string& what) {

@@ -30,9 +30,15 @@ std::size_t elementCount(const tinygltf::Model& model, int accessor, const std::
 /// The elements of an accessor of floats or of integers of 8 or 16 bits, which may be normalised
 /// (KHR_mesh_quantization). @throws SceneError also for values that are not finite
 std::vector<float> readScalars(const tinygltf::Model& model, int accessor, const std::string& what);
-std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, const std::string& what);
-std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what);
-std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what);
+
+/// The same for vectors.
+/// @param flawed  takes the number of vectors that are not finite, which become zero; without it they are an error
+std::vector<glm::vec2> readVec2s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed = nullptr);
+std::vector<glm::vec3> readVec3s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed = nullptr);
+std::vector<glm::vec4> readVec4s(const tinygltf::Model& model, int accessor, const std::string& what,
+                                 std::size_t* flawed = nullptr);
 
 /// The elements of an accessor of unsigned integers of 8, 16 or 32 bits.
 std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int accessor, const std::string& what);

@@ -42,8 +42,8 @@ AnimationChannel readChannel(const tinygltf::Model& model, const tinygltf::Anima
       sampler.interpolation == "STEP" ? AnimationChannel::Interpolation::Step : AnimationChannel::Interpolation::Linear;
   channel.times = readScalars(model, sampler.input, name + " input");
   for (std::size_t i = 1; i < channel.times.size(); ++i) {
-    if (channel.times[i] <= channel.times[i - 1]) {
-      throw SceneError(name + " input: times must rise");
+    if (channel.times[i] < channel.times[i - 1]) {  // Two keys at one time are a jump.
+      throw SceneError(name + " input: times must not fall");
     }
   }
   if (const std::size_t values = elementCount(model, sampler.output, name + " output");
@@ -82,6 +82,11 @@ void convertAnimation(const tinygltf::Model& model, const std::vector<std::optio
       }
       const std::optional<std::uint32_t> node = nodes[static_cast<std::size_t>(source.target_node)];
       if (!node) {
+        continue;
+      }
+      if (scene.nodes[*node].matrix) {
+        scene.warnings.push_back(name + ": node " + std::to_string(source.target_node) +
+                                 " has a matrix, which hides its animation; ignored");
         continue;
       }
       AnimationChannel channel = readChannel(model, sampler, path->second, name);

@@ -7,7 +7,9 @@
 namespace walr::render::gltf {
 
 std::string partName(const std::string& kind, std::size_t index, const std::string& name) {
-  return kind + " " + std::to_string(index) + (name.empty() ? "" : " '" + name + "'");
+  constexpr std::size_t kLongest = 60;
+  const std::string shown = name.substr(0, kLongest) + (name.size() > kLongest ? "..." : "");
+  return kind + " " + std::to_string(index) + (name.empty() ? "" : " '" + shown + "'");
 }
 
 std::size_t readCount(const tinygltf::Value& object, const char* key, const std::string& what) {

@@ -34,7 +34,7 @@ void convertNodes(const tinygltf::Model& model, const std::vector<std::vector<st
 void convertAnimation(const tinygltf::Model& model, const std::vector<std::optional<std::uint32_t>>& nodes,
                       Scene& scene);
 
-/// The name of a part of the file in messages, such as "mesh 3 'wall'".
+/// The name of a part of the file in messages, such as "mesh 3 'wall'", cut if it is long.
 std::string partName(const std::string& kind, std::size_t index, const std::string& name);
 
 /// A member of an extension that is a number of things or an index.

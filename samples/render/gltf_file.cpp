@@ -1,7 +1,9 @@
 #include "samples/render/gltf_file.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <fstream>
 #include <optional>
 #include <span>
@@ -26,6 +28,7 @@ constexpr std::uintmax_t kAllFiles = std::uintmax_t{1} << 32U;
 struct FilesRead {
   std::uintmax_t budget = kAllFiles;  ///< Bytes left of the limit for all files together.
   Fingerprint* contents = nullptr;    ///< Takes in the bytes; may be null.
+  std::deque<std::size_t> lengths{};  ///< Of the buffers, which are read before the images.
 };
 
 std::vector<unsigned char> readWholeFile(const fs::path& file, const FilesRead& files) {
@@ -61,6 +64,7 @@ constexpr std::size_t kHeader = 20;
 constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kFileLengthAt = 8;
 constexpr std::size_t kChunkLengthAt = 12;
+constexpr std::size_t kChunkHeader = 8;
 
 std::uint32_t word(const std::vector<unsigned char>& bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -88,19 +92,44 @@ std::string_view jsonText(const std::vector<unsigned char>& bytes) {
   return text.substr(kHeader, chunk);
 }
 
-// The file with another JSON text.
-std::vector<unsigned char> withJson(const std::vector<unsigned char>& bytes, std::string json) {
-  if (!isBinary(bytes)) return {json.begin(), json.end()};
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::vector<unsigned char> result(bytes.begin(), bytes.begin() + kHeader);
-  result.insert(result.end(), json.begin(), json.end());
-  result.insert(result.end(), bytes.begin() + kHeader + word(bytes, kChunkLengthAt), bytes.end());
-  const auto set = [&](std::size_t at, std::size_t value) {
+// The chunk of a .glb file after the JSON text, which holds the first buffer; empty if there is none.
+std::span<const unsigned char> binaryChunk(const std::vector<unsigned char>& bytes) {
+  const std::size_t at = kHeader + word(bytes, kChunkLengthAt);
+  if (bytes.size() < at + kChunkHeader || std::memcmp(&bytes[at + 4], "BIN", 4) != 0) return {};
+  const std::size_t length = word(bytes, at);
+  const std::span<const unsigned char> rest = std::span(bytes).subspan(at + kChunkHeader);
+  if (length > rest.size()) {
+    throw SceneError("truncated: its binary chunk should have " + std::to_string(length) + " bytes, the file has " +
+                     std::to_string(rest.size()));
+  }
+  return rest.first(length);
+}
+
+// A .glb file with another JSON text. The parser demands chunks of whole words and the right length of the file, which
+// writers miss.
+std::vector<unsigned char> packed(std::string json, std::span<const unsigned char> binary) {
+  const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
+  json.resize(padded(json.size()), ' ');
+  std::vector<unsigned char> result;
+  const auto add = [&](std::size_t value) {
     const auto narrow = static_cast<std::uint32_t>(value);
-    std::memcpy(&result[at], &narrow, sizeof narrow);
+    const auto* const first = reinterpret_cast<const unsigned char*>(&narrow);
+    result.insert(result.end(), first, first + sizeof narrow);
   };
-  set(kFileLengthAt, word(bytes, kFileLengthAt) + result.size() - bytes.size());
-  set(kChunkLengthAt, json.size());
+  const std::string_view magic = "glTF";
+  result.assign(magic.begin(), magic.end());
+  add(2);
+  add(kHeader + json.size() + (binary.empty() ? 0 : kChunkHeader + padded(binary.size())));
+  add(json.size());
+  const std::string_view jsonType = "JSON";
+  result.insert(result.end(), jsonType.begin(), jsonType.end());
+  result.insert(result.end(), json.begin(), json.end());
+  if (binary.empty()) return result;
+  add(padded(binary.size()));
+  const std::string_view binaryType("BIN\0", 4);
+  result.insert(result.end(), binaryType.begin(), binaryType.end());
+  result.insert(result.end(), binary.begin(), binary.end());
+  result.resize(result.size() + padded(binary.size()) - binary.size());
   return result;
 }
 
@@ -125,6 +154,9 @@ bool readFile(std::vector<unsigned char>* bytes, std::string* errors, const std:
   try {
     *bytes = readWholeFile(file, files);
     files.budget -= bytes->size();
+    if (files.lengths.empty()) return true;
+    bytes->resize(std::min(bytes->size(), files.lengths.front()));  // The parser demands this very length.
+    files.lengths.pop_front();
     return true;
   } catch (const SceneError& error) {
     *errors += file + ": " + error.what() + "\n";
@@ -136,10 +168,11 @@ std::string samePath(const std::string& path, void* /*user*/) {
   return path;
 }
 
-// Without newlines at its end, and short: the parser quotes data URIs.
+// Of one line, and short: the parser quotes data URIs.
 std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 300;
   text.erase(text.find_last_not_of('\n') + 1);
+  std::ranges::replace(text, '\n', ' ');
   return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
@@ -148,8 +181,15 @@ std::string shortened(std::string text) {
 tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* contents) {
   FilesRead files{.contents = contents};
   std::vector<unsigned char> bytes = readWholeFile(file, files);
-  if (std::optional<std::string> json = prepareJson(jsonText(bytes), isBinary(bytes))) {
-    bytes = withJson(bytes, std::move(*json));
+  const std::string_view text = jsonText(bytes);
+  const std::span<const unsigned char> binary = isBinary(bytes) ? binaryChunk(bytes) : std::span<const unsigned char>();
+  std::optional<std::string> json = prepareJson(text, !binary.empty(), files.lengths);
+  if (isBinary(bytes)) {
+    const bool whole = text.size() % 4 == 0 && binary.size() % 4 == 0 && word(bytes, kFileLengthAt) == bytes.size() &&
+                       bytes.size() == kHeader + text.size() + (binary.empty() ? 0 : kChunkHeader + binary.size());
+    if (json || !whole) bytes = packed(json ? std::move(*json) : std::string(text), binary);
+  } else if (json) {
+    bytes.assign(json->begin(), json->end());
   }
 
   tinygltf::TinyGLTF parser;
@@ -174,7 +214,7 @@ tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* conten
   } catch (const std::exception& error) {
     errors = error.what();
   }
-  if (!parsed) {
+  if (!parsed || !errors.empty()) {  // Of some errors the parser makes default values.
     throw SceneError("not a valid glTF 2.0 file: " +
                      (errors.empty() ? "it cannot be parsed" : shortened(std::move(errors))));
   }

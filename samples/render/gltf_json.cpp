@@ -88,6 +88,7 @@ void checkVersion(const Json& asset) {
   };
   // A later minor version may be read as 2.0, unless `minVersion` says otherwise (specification, 3.2).
   const Json& version = member(asset, "version");
+  if (version.is_number()) throw SceneError("its asset.version is the number " + version.dump() + ", not a text");
   if (version.is_string() && !version.get<std::string>().starts_with("2.")) refuse("version", version);
   const Json& least = member(asset, "minVersion");
   if (least.is_string() && least != "2.0") refuse("minVersion", least);
@@ -105,33 +106,90 @@ void checkRequiredExtensions(const Json& required) {
   }
 }
 
+// The parser takes an array that holds anything but numbers for absent. Members that are null are absent in fact.
+void checkNumbers(const Json& value, const std::string& path) {
+  if (value.is_object()) {
+    for (const auto& [name, item] : value.items()) {
+      if (name == "extras" || name == "extensions") continue;
+      checkNumbers(item, path + "." + name);
+    }
+  }
+  if (!value.is_array()) return;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const std::string element = path + "[" + std::to_string(i) + "]";
+    if (value[i].is_null() || value[i].is_string()) {
+      throw SceneError(element + " is " + value[i].dump() + ", not a number; exporters write null for NaN");
+    }
+    checkNumbers(value[i], element);
+  }
+}
+
+// The parser knows few media types, and demands a buffer of exactly the length that it states.
+bool plainDataUri(Json& owner, const std::string& buffer) {
+  const Json& uri = member(owner, "uri");
+  const std::string_view text = uri.is_string() ? std::string_view(uri.get_ref<const std::string&>()) : "";
+  if (!text.starts_with("data:")) return false;
+  constexpr std::string_view kEnd = ";base64";
+  constexpr std::array<std::string_view, 4> kPlain = {"data:application/octet-stream;base64,",
+                                                      "data:application/gltf-buffer;base64,", "data:image/png;base64,",
+                                                      "data:image/jpeg;base64,"};
+  const std::size_t comma = std::min(text.find(','), text.size());
+  if (!text.substr(0, comma).ends_with(kEnd)) {
+    if (buffer.empty()) return false;
+    throw SceneError(buffer + ": its data URI is not in base64");
+  }
+  const std::string_view data = text.substr(std::min(comma + 1, text.size()));
+  const std::size_t bytes = (data.find_last_not_of('=') + 1) * 3 / 4;
+  const Json& stated = member(owner, "byteLength");
+  const bool other = !buffer.empty() && stated.is_number_unsigned() && stated != bytes;
+  if (other && bytes < stated.get<std::size_t>()) {
+    throw SceneError(buffer + ": its data URI holds " + std::to_string(bytes) + " bytes, byteLength states " +
+                     stated.dump());
+  }
+  if (!other && std::ranges::any_of(kPlain, [&](std::string_view head) { return text.starts_with(head); }))
+    return false;
+  owner["uri"] = std::string(kPlain[0]) + std::string(data);
+  if (other) owner["byteLength"] = bytes;
+  return true;
+}
+
 }  // namespace
 
 bool isSupported(const std::string& extension) {
-  constexpr std::array kAlways = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-                                  "KHR_texture_transform"};
+  constexpr std::array kAlways = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
+                                  kSpecularGlossinessExtension, "KHR_mesh_quantization", "KHR_texture_transform"};
   return std::ranges::find(kAlways, extension) != kAlways.end() ||
          std::ranges::any_of(kOptional, [&](const OptionalExtension& o) { return o.built && o.name == extension; });
 }
 
-std::optional<std::string> prepareJson(std::string_view text, bool binary) {
+std::optional<std::string> prepareJson(std::string_view text, bool hasChunk, std::deque<std::size_t>& fileLengths) {
   checkText(text);
   Json json = Json::parse(text, nullptr, false);
   checkVersion(member(json, "asset"));
   checkRequiredExtensions(member(json, "extensionsRequired"));
   // Views that are only stored compressed lie in buffers without a file.
   const bool onlyCompressed = std::ranges::count(elements(json, "extensionsRequired"), kMeshoptExtension) > 0;
-  bool changed = false;
+  for (const char* const part : {"nodes", "materials"}) checkNumbers(member(json, part), part);
+  // Not rendered. The parser demands members of them that the specification does not.
+  bool changed = json.is_object() && json.erase("skins") > 0;
+  for (Json& image : elements(json, "images")) changed = plainDataUri(image, "") || changed;
   const std::span<Json> buffers = elements(json, "buffers");
-  for (std::size_t i = binary ? 1 : 0; i < buffers.size(); ++i) {
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
     Json& buffer = buffers[i];
-    if (!buffer.is_object() || buffer.contains("uri")) continue;
+    changed = plainDataUri(buffer, "buffer " + std::to_string(i)) || changed;
+    const Json& uri = member(buffer, "uri");
+    if (uri.is_string() && !uri.get_ref<const std::string&>().starts_with("data:")) {
+      const Json& length = member(buffer, "byteLength");
+      fileLengths.push_back(length.is_number_unsigned() ? length.get<std::size_t>() : 0);
+    }
+    if (!buffer.is_object() || buffer.contains("uri") || (hasChunk && i == 0)) continue;
     if (onlyCompressed) {
       buffer["uri"] = "data:application/octet-stream;base64,AA==";
       buffer["byteLength"] = 1;
       changed = true;
-    } else if (binary) {
-      throw SceneError("buffer " + std::to_string(i) + ": has no uri, which only the first one of a GLB file may lack");
+    } else {
+      throw SceneError("buffer " + std::to_string(i) +
+                       ": has no uri, which only the first one of a GLB file with a binary chunk may lack");
     }
   }
   const std::size_t views = elements(json, "bufferViews").size();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,15 +11,19 @@
 /// What is checked in the JSON text of a file before the parser reads it, so that the message names the true cause.
 namespace walr::render::gltf {
 
+inline constexpr const char* kSpecularGlossinessExtension = "KHR_materials_pbrSpecularGlossiness";
+
 /// Whether the loader renders what an extension says, so that a file may require it.
 bool isSupported(const std::string& extension);
 
-/// Check the text's nesting and size, the version, the required extensions and which buffers have no file.
-/// @param binary  the text is a chunk of a GLB file
+/// Check the text's nesting and size, the version, the required extensions, numbers, data URIs and which buffers have
+/// no file.
+/// @param hasChunk  the text is that of a GLB file with a binary chunk
+/// @param fileLengths  takes the bytes that are used of each buffer that is a file, in their order
 /// @returns another text for the parser if it would refuse this one although it is valid; `restoreAbsentViews` undoes
 /// it
 /// @throws SceneError
-std::optional<std::string> prepareJson(std::string_view text, bool binary);
+std::optional<std::string> prepareJson(std::string_view text, bool hasChunk, std::deque<std::size_t>& fileLengths);
 
 /// Give the accessors that have no buffer view in the file none in the model.
 void restoreAbsentViews(tinygltf::Model& model);

@@ -5,6 +5,7 @@
 
 #include "samples/render/gltf_accessor.h"
 #include "samples/render/gltf_convert.h"
+#include "samples/render/gltf_json.h"
 #include "samples/render/image_decode.h"
 #include "samples/render/scene_error.h"
 
@@ -134,9 +135,43 @@ float emissiveStrength(const tinygltf::Material& source, const std::string& name
   return static_cast<float>(strength);
 }
 
+tinygltf::TextureInfo textureOf(const tinygltf::Value& object, const char* key) {
+  tinygltf::TextureInfo info;
+  const tinygltf::Value& value = object.Get(key);
+  if (!value.IsObject()) return info;
+  info.index = value.Has("index") ? value.Get("index").GetNumberAsInt() : -1;
+  info.texCoord = value.Has("texCoord") ? value.Get("texCoord").GetNumberAsInt() : 0;
+  const tinygltf::Value& extensions = value.Get("extensions");
+  for (const std::string& name : extensions.Keys()) info.extensions[name] = extensions.Get(name);
+  return info;
+}
+
+std::vector<double> numbersOf(const tinygltf::Value& object, const char* key, std::vector<double> byDefault) {
+  const tinygltf::Value& value = object.Get(key);
+  if (!value.IsArray() || value.ArrayLen() != byDefault.size()) return byDefault;
+  for (std::size_t i = 0; i < byDefault.size(); ++i) {
+    byDefault[i] = value.Get(static_cast<int>(i)).GetNumberAsDouble();
+  }
+  return byDefault;
+}
+
+// The diffuse lobe of KHR_materials_pbrSpecularGlossiness as base colour. A texture of specular colours is left out.
+tinygltf::PbrMetallicRoughness diffuseOf(const tinygltf::Value& source) {
+  tinygltf::PbrMetallicRoughness pbr;
+  pbr.metallicFactor = 0.0;
+  pbr.baseColorTexture = textureOf(source, "diffuseTexture");
+  pbr.baseColorFactor = numbersOf(source, "diffuseFactor", {1.0, 1.0, 1.0, 1.0});
+  const std::vector<double> specular = numbersOf(source, "specularFactor", {1.0, 1.0, 1.0});
+  if (source.Has("specularGlossinessTexture")) return pbr;
+  for (std::size_t c = 0; c < 3; ++c) pbr.baseColorFactor[c] *= 1.0 - *std::ranges::max_element(specular);
+  return pbr;
+}
+
 Material convertMaterial(const tinygltf::Material& source, const std::string& name, const OptionalIndices& textures,
                          Scene& scene) {
-  const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+  const auto specular = source.extensions.find(kSpecularGlossinessExtension);
+  const bool metallic = specular == source.extensions.end() || !specular->second.IsObject();
+  const tinygltf::PbrMetallicRoughness pbr = metallic ? source.pbrMetallicRoughness : diffuseOf(specular->second);
   if (pbr.baseColorFactor.size() != 4) {
     throw SceneError(name + " baseColorFactor: must have four numbers");
   }
@@ -156,7 +191,7 @@ Material convertMaterial(const tinygltf::Material& source, const std::string& na
         readColor(source.emissiveFactor, name + " emissiveFactor", scene) * emissiveStrength(source, name);
   }
   const TextureFinder finder(textures, name, material, scene);
-  material.baseColorTexture = finder.find(pbr.baseColorTexture, "baseColorTexture");
+  material.baseColorTexture = finder.find(pbr.baseColorTexture, metallic ? "baseColorTexture" : "diffuseTexture");
   material.metallicRoughnessTexture = finder.find(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
   material.emissiveTexture = finder.find(source.emissiveTexture, "emissiveTexture");
   material.normalTexture = finder.find(source.normalTexture, "normalTexture");

@@ -67,26 +67,51 @@ std::vector<glm::uvec3> readTriangles(const tinygltf::Model& model, const tinygl
   return assemble(indices, primitive.mode, name);
 }
 
-std::vector<glm::vec3> readNormals(const tinygltf::Model& model, int accessor, const std::string& what) {
-  std::vector<glm::vec3> normals = readVec3s(model, accessor, what);
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const float length = glm::length(normals[i]);
-    if (!(length > 0.0F) || !std::isfinite(length)) {
-      throw SceneError(what + ": element " + std::to_string(i) + " cannot be normalised");
-    }
-    normals[i] /= length;
+// Of attributes that only shade. Exporters write NaN where they divided by zero.
+void warnOfFlaws(std::size_t flawed, const std::string& what, Scene& scene) {
+  if (flawed > 0) {
+    scene.warnings.push_back(what + ": " + std::to_string(flawed) + " values are not finite; they are read as zeros");
   }
-  return normals;
+}
+
+bool hasDirection(const glm::vec3& vector) {
+  const float length = glm::length(vector);
+  return length > 0.0F && std::isfinite(length);
+}
+
+// Exporters write zeros or NaN for vertices of triangles without area. Those get the mean normal of their triangles,
+// weighted by area.
+void readNormals(const tinygltf::Model& model, int accessor, const std::string& what, Mesh& mesh, Scene& scene) {
+  std::vector<glm::vec3>& normals = mesh.normals;
+  std::size_t flawed = 0;
+  normals = readVec3s(model, accessor, what, &flawed);
+  const auto bad = std::ranges::count_if(normals, [](const glm::vec3& n) { return !hasDirection(n); });
+  if (bad > 0) {
+    scene.warnings.push_back(what + ": " + std::to_string(bad) + " of " + std::to_string(normals.size()) +
+                             " have no direction; they get that of their triangles");
+    std::vector<glm::vec3> sums(normals.size(), glm::vec3(0.0F));
+    for (const glm::uvec3& t : mesh.triangles) {
+      const glm::vec3 origin = mesh.positions[t.x];
+      const glm::vec3 doubleArea = glm::cross(mesh.positions[t.y] - origin, mesh.positions[t.z] - origin);
+      for (const std::uint32_t vertex : {t.x, t.y, t.z}) sums[vertex] += doubleArea;
+    }
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      if (!hasDirection(normals[i])) normals[i] = hasDirection(sums[i]) ? sums[i] : glm::vec3(0.0F, 0.0F, 1.0F);
+    }
+  }
+  for (glm::vec3& normal : normals) normal /= glm::length(normal);
 }
 
 // Linear, clamped to 0..1, with alpha 1 if there is none (specification, 3.7.2.1).
-std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& what) {
+std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& what, Scene& scene) {
+  std::size_t flawed = 0;
   std::vector<glm::vec4> colors;
   if (model.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3) {
-    for (const glm::vec3& color : readVec3s(model, accessor, what)) colors.emplace_back(color, 1.0F);
+    for (const glm::vec3& color : readVec3s(model, accessor, what, &flawed)) colors.emplace_back(color, 1.0F);
   } else {
-    colors = readVec4s(model, accessor, what);
+    colors = readVec4s(model, accessor, what, &flawed);
   }
+  warnOfFlaws(flawed, what, scene);
   for (glm::vec4& color : colors) color = glm::clamp(color, 0.0F, 1.0F);
   return colors;
 }
@@ -98,7 +123,9 @@ void readTextureCoordinates(const tinygltf::Model& model, const tinygltf::Primit
   std::vector<glm::vec2> uvs(mesh.positions.size(), glm::vec2(0.0F));
   if (const std::optional<int> uv = findAttribute(primitive, attribute)) {
     checkCount(model, *uv, mesh, mesh.name + " " + attribute);
-    uvs = readVec2s(model, *uv, mesh.name + " " + attribute);
+    std::size_t flawed = 0;
+    uvs = readVec2s(model, *uv, mesh.name + " " + attribute, &flawed);
+    warnOfFlaws(flawed, mesh.name + " " + attribute, scene);
   } else {
     scene.warnings.push_back(mesh.name + ": has no " + attribute + " for its textures; they are sampled at the origin");
   }
@@ -132,7 +159,7 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
 
   if (const std::optional<int> normal = findAttribute(primitive, "NORMAL")) {
     checkCount(model, *normal, mesh, name + " NORMAL");
-    mesh.normals = readNormals(model, *normal, name + " NORMAL");
+    readNormals(model, *normal, name + " NORMAL", mesh, scene);
   }
   for (const TextureCoordinates& coordinates : material.coordinates) {
     readTextureCoordinates(model, primitive, coordinates, mesh, scene);
@@ -140,7 +167,9 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   if (material.normalTexture && !mesh.normals.empty()) {
     if (const std::optional<int> tangent = findAttribute(primitive, "TANGENT")) {
       checkCount(model, *tangent, mesh, name + " TANGENT");
-      mesh.tangents = readVec4s(model, *tangent, name + " TANGENT");
+      std::size_t flawed = 0;
+      mesh.tangents = readVec4s(model, *tangent, name + " TANGENT", &flawed);
+      warnOfFlaws(flawed, name + " TANGENT", scene);
     } else {
       const std::size_t first = scene.textures[*material.normalTexture].coordinates * mesh.positions.size();
       mesh.tangents = deriveTangents(mesh, std::span(mesh.uvs).subspan(first, mesh.positions.size()));
@@ -150,7 +179,7 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   }
   if (const std::optional<int> color = findAttribute(primitive, "COLOR_0")) {
     checkCount(model, *color, mesh, name + " COLOR_0");
-    mesh.colors = readColors(model, *color, name + " COLOR_0");
+    mesh.colors = readColors(model, *color, name + " COLOR_0", scene);
   }
   if (!primitive.targets.empty()) {
     scene.warnings.push_back(name + ": morph targets are ignored");

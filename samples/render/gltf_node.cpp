@@ -84,9 +84,9 @@ void convertLights(const tinygltf::Model& model, Scene& scene) {
       light.kind = PunctualLight::Kind::Point;
     } else if (source.type == "spot") {
       light.kind = PunctualLight::Kind::Spot;
-      if (!(source.spot.innerConeAngle >= 0.0 && source.spot.innerConeAngle < source.spot.outerConeAngle &&
+      if (!(source.spot.innerConeAngle >= 0.0 && source.spot.innerConeAngle <= source.spot.outerConeAngle &&
             source.spot.outerConeAngle <= std::numbers::pi / 2.0 + 1e-6)) {
-        throw SceneError(name + ": must have 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+        throw SceneError(name + ": must have 0 <= innerConeAngle <= outerConeAngle <= pi / 2");
       }
       light.cosInnerCone = static_cast<float>(std::cos(source.spot.innerConeAngle));
       light.cosOuterCone = static_cast<float>(std::cos(source.spot.outerConeAngle));
@@ -157,6 +157,9 @@ void convertNodes(const tinygltf::Model& model, const std::vector<std::vector<st
   convertCameras(model, scene);
   convertLights(model, scene);
   const std::size_t index = model.defaultScene < 0 ? 0 : static_cast<std::size_t>(model.defaultScene);
+  if (model.scenes.empty()) {
+    throw SceneError("the file has no scenes, only parts for other files; add one that lists the nodes to render");
+  }
   if (index >= model.scenes.size()) {
     throw SceneError("the file has no scene " + std::to_string(index));
   }

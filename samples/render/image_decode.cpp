@@ -83,7 +83,8 @@ Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudge
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
       stbi_load_from_memory(bytes.data(), size, &width, &height, &components, kRgba), &stbi_image_free);
   if (!decoded) {
-    throw SceneError(std::string("cannot be decoded: ") + stbi_failure_reason());
+    const std::string reason = stbi_failure_reason();  // Empty at the end of the file.
+    throw SceneError("cannot be decoded: " + (reason.empty() ? "it ends too early" : reason));
   }
   texelBudget -= texels;
   Image image;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "samples/image/exr_names.h"
 #include "samples/render/default_view.h"
 #include "samples/render/gltf_compression.h"
 #include "samples/render/gltf_convert.h"
@@ -78,9 +79,11 @@ Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& 
     gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);
     gltf::checkPlacedTriangles(scene);
     completeScene(scene);
+    // They quote texts of the file, which must not command the terminal.
+    for (std::string& warning : scene.warnings) warning = printable(warning);
     return scene;
   } catch (const SceneError& error) {
-    throw SceneError(file.string() + ": " + error.what());
+    throw SceneError(file.string() + ": " + printable(error.what()));
   }
 }
 

@@ -14,12 +14,13 @@ namespace walr::render {
 /// Supported: the default scene's nodes, meshes of triangles (lists, strips and fans; floats and integers of
 /// KHR_mesh_quantization, sparse accessors, KHR_draco_mesh_compression and EXT_meshopt_compression if built), vertex
 /// colours, base colour, metallic, emissive and normal textures (PNG and JPEG, all texture coordinates,
-/// KHR_texture_transform), alpha mode MASK, perspective cameras, LINEAR and STEP animation of translation, rotation and
-/// scale, KHR_lights_punctual, KHR_materials_emissive_strength, and a constant sky in `scenes[i].extras.sky_radiance`.
-/// Light units are radiometric: directional intensity is irradiance on a plane facing the light, point and spot
-/// intensity is radiant intensity, emission is radiance. A scene without a camera gets one (`addFramingCamera`), and
-/// one without light a white sky of radiance 1 above and 0.25 below; without a camera, glowing surfaces do not count as
-/// light. `Scene::warnings` says so, and lists what the file holds beyond that.
+/// KHR_texture_transform), the diffuse colours of KHR_materials_pbrSpecularGlossiness, alpha mode MASK, perspective
+/// cameras, LINEAR and STEP animation of translation, rotation and scale, KHR_lights_punctual,
+/// KHR_materials_emissive_strength, and a constant sky in `scenes[i].extras.sky_radiance`. Light units are radiometric:
+/// directional intensity is irradiance on a plane facing the light, point and spot intensity is radiant intensity,
+/// emission is radiance. A scene without a camera gets one (`addFramingCamera`), and one without light a white sky of
+/// radiance 1 above and 0.25 below; without a camera, glowing surfaces do not count as light. `Scene::warnings` says
+/// so, and lists what the file holds beyond that.
 /// @throws SceneError naming the file and the part that is missing, damaged, required but not supported, or
 ///         larger than a limit: 2 GiB per file and 4 GiB in all; JSON of 128 levels and 2^25 values; 16384 texels a
 ///         side and 1 GiB of texels in all; 2^27 vertices, indices and keys, 2^22 without a buffer view; 2^26 triangles

@@ -206,7 +206,7 @@ void requirePlanes(const ExrReader& file, const RecognizedLayout& layout, std::s
   if (!missing.empty()) {
     throw InputError(file.path().string() + ": missing channel" + (missing.size() > 1 ? "s " : " ") + join(missing) +
                      " (layout: " + std::string(layout.layout->name) + "). " +
-                     (layout.map != nullptr ? "Correct the map. Channels found: " + join(present) : wayOut));
+                     (layout.map != nullptr ? "Correct the map." : wayOut) + " Channels found: " + join(present));
   }
 }
 
@@ -333,7 +333,7 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
   requirePlanes(file, layout, planes,
                 wanted.rest ? "Render with these passes, or leave out --composite: only composites need direct light, "
                               "emission and light that is not diffuse."
-                            : "Render with these passes.");
+                            : "Render with these passes, or say with --channels FILE which channels hold what.");
 }
 
 void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {

@@ -31,6 +31,21 @@ std::optional<int> frameNumber(const std::string& stem) {
   return std::stoi(digits);
 }
 
+/// Whether a minus sign belongs to the number at the end of a file stem. One after a letter or digit is a hyphen.
+bool isNegative(const std::string& stem) {
+  const std::size_t sign = stem.find_last_not_of("0123456789");
+  return sign != std::string::npos && stem[sign] == '-' &&
+         (sign == 0 || std::isalnum(static_cast<unsigned char>(stem[sign - 1])) == 0);
+}
+
+/// Whether a file is an OpenEXR file by its name. Systems hide files that begin with a dot, such as the "._NAME" that
+/// macOS leaves on other systems' disks.
+bool isNamedExr(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == ".exr" && !file.filename().string().starts_with('.');
+}
+
 using FilesByNumber = std::map<int, fs::path>;
 
 void addFile(FilesByNumber& files, int number, const fs::path& path) {
@@ -127,7 +142,10 @@ void Sequence::scan() {
   for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
     const std::string stem = file.path().stem().string();
     const std::optional<int> number = frameNumber(stem);
-    if (file.path().extension() == ".exr" && number) {
+    if (isNamedExr(file.path()) && number) {
+      if (isNegative(stem)) {
+        throw InputError(file.path().string() + " has a negative frame number; number the frames from 0 or more on");
+      }
       addFile(stem.starts_with("ref") ? references : frames, *number, file.path());
     }
   }

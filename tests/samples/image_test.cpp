@@ -62,7 +62,8 @@ TEST(Exr, KeepsValuesTypesAndAttributes) {
   EXPECT_EQ(reader.matrix("m"), matrix);
   EXPECT_EQ(reader.vector("v"), glm::vec2(0.25F, -0.5F));
   EXPECT_EQ(reader.integer("i"), 3);
-  EXPECT_FALSE(reader.matrix("v").has_value());
+  EXPECT_THROW(static_cast<void>(reader.matrix("v")), InputError);
+  EXPECT_FALSE(reader.matrix("absent").has_value());
   Image read(5, 3, 2);
   reader.read(std::vector<ExrReader::Target>{{"Some.Y", &read, 0}, {"Half.R", &read, 1}});
   for (std::size_t i = 0; i < read.pixelCount(); ++i) {

@@ -59,7 +59,7 @@ TEST_F(ProgramTest, ATruncatedFrameLeavesTheFinishedOnesWhole) {
   }
 }
 
-TEST_F(ProgramTest, ASingularCameraIsNamed) {
+TEST_F(ProgramTest, WrongCamerasAreNamed) {
   files.write(0, 0);
   std::string cameras = test::readText(input / "cameras.json");
   auto document = nlohmann::json::parse(cameras);
@@ -67,6 +67,12 @@ TEST_F(ProgramTest, ASingularCameraIsNamed) {
   document["frames"][0]["prev_view"] = std::vector<double>(16, 0.0);
   test::writeText(input / "cameras.json", document.dump());
   expectFailure(denoise(), kInput, {"camera of frame 0"});
+  files.writeCameras(0, 0);
+  document = nlohmann::json::parse(test::readText(input / "cameras.json"));
+  document["frames"][0]["projection"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -0.1, 0, 0, 0, -1, 1};
+  test::writeText(input / "cameras.json", document.dump());
+  expectFailure(walr({"lint", input.string()}), kInput,
+                {"camera of frame 0", "orthographic", "sequence need a perspective camera"});
 }
 
 TEST_F(ProgramTest, NoVulkanDeviceIsSaid) {

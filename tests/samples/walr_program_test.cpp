@@ -149,6 +149,16 @@ TEST_F(ProgramTest, LintsFrames) {
   EXPECT_NE(spoiled.out.find("Way out: "), std::string::npos) << spoiled.out;
 }
 
+// walr denoise refuses them; a depth that is infinite is sky to the linter.
+TEST_F(ProgramTest, LintsWhatIsNotFiniteInTheSky) {
+  files.write(0, 0);
+  files.writeFrame(0, [](Channels& channels) { channels.at("Depth.Z").at(2, 0, 0) = HUGE_VALF; });
+  const ProcessResult result = walr({"lint", input.string()});
+  expectFailure(result, kInput, {"1 thing looks wrong"});
+  EXPECT_NE(result.out.find("noisy_0000.exr: channel Depth.Z is NaN or infinite on 1 pixels"), std::string::npos)
+      << result.out;
+}
+
 TEST_F(ProgramTest, LintsWhatItRendered) {
   const std::string scene = std::string(WALR_SCENES) + "/box.gltf";
   expectSuccess(walr({"render", scene, "--output", input.string(), "--frames", "0-3", "--size", "96x54",
