@@ -30,36 +30,15 @@ struct AccumulatedShareSettings {
              "spatial-only",
              "", 0, 1, "measured"},
             enabled);
-    v.visit(
-        {"blocks.residual-frames", "Frames over which this agreement is measured", "frames", 1.0, 255.0, "measured"},
-        frames);
-    v.visit({"blocks.residual-radius",
-             "Radius of the window of tiles over which it is measured, with weights that fall to the border; a tile is "
-             "as many blocks as fit into 8 pixels",
-             "tiles", 0, 8, "measured"},
-            radius);
     v.visit({"blocks.residual-gain",
              "Factor of the agreement, which comes out too small where reprojection has blurred history", "", 0.0, 64.0,
              "measured"},
             gain);
-    v.visit({"blocks.residual-edge-gain",
-             "The same for means over 3x3 pixels with another surface among them, where reprojection blurs most", "",
-             0.0, 64.0, "measured"},
-            edgeGain);
-    v.visit({"blocks.residual-least-share", "Share of the accumulated light below which it is left out", "", 0.0, 0.95,
-             "measured"},
-            leastShare);
     v.visit({"blocks.innovation-gain",
              "How fast the history length follows the correlation of innovations, the differences of new samples from "
              "history; 0: not at all",
              "", 0.0, 4.0, "Mehra 1970"},
             innovationGain);
-    v.visit(
-        {"blocks.innovation-bias",
-         "Correlation of innovations at which the history length stays as it is, in units of what noise alone gives at "
-         "the longest history; above 1 history is shorter than that",
-         "", 0.0, 100.0, "measured"},
-        innovationBias);
     v.visit(
         {"blocks.residual-antialiasing",
          "In frames without jitter, anti-aliasing shortens its history where the share of the accumulated light in a "

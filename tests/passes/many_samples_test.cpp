@@ -160,7 +160,7 @@ TEST_F(ManySamples, HistoryIsShortWhereItBlurs) {
 
 TEST_F(ManySamples, HistoryIsLongWhereThereIsOnlyNoise) {
   const auto frames = walk(1, smoothLight);
-  // The setting blocks.innovation-bias lets noise shorten history by 1 / 1.28. This raises the error by its root, 1.13.
+  // `AccumulatedShareSettings::innovationBias` lets noise shorten history by 1 / 1.28. This raises the error by its root, 1.13.
   EXPECT_LT(lastError(frames, standard()), 1.13 * lastError(frames, fast()));
 }
 
@@ -175,7 +175,7 @@ TEST_F(ManySamples, ErrorsFallForAsLongAsTheCameraStandsStill) {
     const double mixed = mixture.error(frame), accumulated = mean.error(frame), predicted = fits.error(frame);
     if (i < 15 || (i & (i + 1)) != 0) continue;
     const double best = accumulated * predicted / std::hypot(accumulated, predicted);
-    // Noise may shorten history by 1 / 1.28 (blocks.innovation-bias), which raises the error of accumulated light by
+    // Noise may shorten history by 1 / 1.28 (innovationBias), which raises the error of accumulated light by
     // its root, 1.13, and that of the mixture by less.
     EXPECT_LT(mixed, 1.1 * best) << "frame " << i;
     // In the last frame the two are level, and the mixture differs by .08 % between lavapipe and an NVIDIA H200.

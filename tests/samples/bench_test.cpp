@@ -180,14 +180,6 @@ TEST(PlanCostsTest, TapsAreTheWindowsOfTheStages) {
     return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
   };
   EXPECT_EQ(blocks("4") - blocks("2"), 18.0 / 16.0);
-  // A group of 8 x 8 tiles fetches those around it once for each of three sums, and once more for the slope, which
-  // needs nine tiles on each axis and those around them. The tiles begin before the image, and are 31 x 17 groups.
-  const auto share = [](const char* radius) {
-    const std::string text = std::string("w=walr,blocks.residual-radius=") + radius;
-    return *planCosts(parseVariant(text), {1920, 1080}, {}).tapsPerPixel;
-  };
-  const double more = 3.0 * (18 * 18 - 16 * 16) + (19 * 19 - 17 * 17);
-  EXPECT_NEAR(share("5") - share("4"), more * 31 * 17 / (1920.0 * 1080.0), 1e-9);
 }
 
 TEST(PlanCostsTest, SharedMemoryIsNoLargerThanUnshared) {
