@@ -4,8 +4,17 @@
 #include "passes/temporal/antilag.h"
 #include "shaders/regression/accumulated_share.h"
 #include "shaders/shaders.h"
+#include "shaders/temporal/temporal_accumulation.h"
 
 namespace walr {
+namespace {
+
+/// Share below which a tile is quiet, in units of the least share that counts.
+constexpr float kQuietShare = 0.75F;
+/// Statistics of quiet tiles, of which few are measured in a frame, fade so many times slower.
+constexpr float kQuietMemory = 2.0F;
+
+}  // namespace
 
 SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory) {
   const fg::Extent tiles = antilagTiles(pixels);
@@ -24,7 +33,8 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
   const fg::History agreement = graph->history("residual agreement", ofTiles);
   const fg::History innovation = graph->history("innovation", {VK_FORMAT_R16_SFLOAT, pixels});
   const SteeredHistory history =
-      inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, 1.0F);  // Nobody reads it.
+      // Nobody reads it. Without it, history may have any length up to the longest that packed light holds.
+      inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples);
 
   apply.specialize("kPackedMean", packed)
       .sampleIf(packed, "accumulatedPacked", inputs.accumulated, inputs.guides.depth)
@@ -51,9 +61,16 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sample("previousLeastAntilag", history.leastAntilag.previous)
       .specialize("kTileSize", inputs.tileSize)
       .specialize("kRadius", settings.radius)
-      .constants(ResidualStatisticsConstants{static_cast<std::int32_t>(inputs.tileOffset),
-                                             1.0F - 1.0F / settings.frames, history.maxHistory, settings.innovationGain,
-                                             bias, settings.gain, settings.antialiasingShare})
+      .constants(ResidualStatisticsConstants{.tileOffset = static_cast<std::int32_t>(inputs.tileOffset),
+                                             .kept = 1.0F - 1.0F / settings.frames,
+                                             .keptQuiet = 1.0F - 1.0F / (kQuietMemory * settings.frames),
+                                             .maxHistory = history.maxHistory,
+                                             .innovationGain = settings.innovationGain,
+                                             .innovationBias = bias,
+                                             .residualGain = settings.gain,
+                                             .residualEdgeGain = settings.edgeGain,
+                                             .quietShare = kQuietShare * settings.leastShare,
+                                             .antialiasingShare = settings.antialiasingShare})
       // A tile of antilag is no smaller than one of the reconstruction, so that there are no more of them.
       .dispatch(inputs.tiles);
   static_cast<void>(pass.store("outStatistics", statistics.current));

@@ -7,6 +7,7 @@
 // most.
 // In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
 // pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
+// Most workgroups of light of one sample have no share. They do nothing in most frames (partOfWorkgroup).
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
 // stored_fit.glsl.
 #ifndef WALR_ACCUMULATED_SHARE_GLSL
@@ -18,7 +19,9 @@
 #include "regression/innovation.glsl"
 #include "common/luminance.glsl"
 #include "conventions/packed_light.glsl"
+#include "regression/quiet_tiles.glsl"
 #include "regression/reconstruction_tile.glsl"
+#include "regression/tile_before.glsl"
 
 layout(constant_id = 3) const bool kPackedMean = true;  // The accumulated light is packed.
 layout(constant_id = 4) const bool kAntilag = false;    // It is shortened by the antilag factor of its own frame.
@@ -27,8 +30,29 @@ uniform texture2D accumulatedHalf;
 uniform texture2D lighting;
 uniform sampler2D antilag;
 uniform texture2D previousStatistics;  // residual_statistics.comp.
-uniform sampler2D previousAgreement;   // Blue: trust.
+uniform sampler2D previousAgreement;   // Blue: trust; alpha: tileState.
 layout(rgba32f) uniform writeonly image2D outResidualSums;  // Right half: of pixels beside an edge.
+
+// Whether the tile of this workgroup lay among tiles in the last frame that are all quiet. The same for all threads.
+bool isAmongQuiet() {
+  const vec2 before = tileBefore(ivec2(gl_WorkGroupID.xy), kTilePixels, kTileStart);
+  const vec2 tiles = vec2(textureSize(previousAgreement, 0));
+  if (any(lessThan(before, vec2(0.0))) || any(greaterThanEqual(before, tiles))) return false;
+  const float least = 0.75;  // Share of the tile that lay on quiet ones.
+  const vec2 base = floor(before - 0.5);
+  const vec4 quiet = quietness(textureGather(previousAgreement, (base + 1.0) / tiles, 3));
+  return bilinear(quiet, before - 0.5 - base) >= least;
+}
+
+// What a workgroup does beside the prediction.
+const int kNothing = 0;
+const int kMeasures = 1;  // Adds shares to its pixels, and measures them.
+const int kSteers = 2;    // Measures innovations, too.
+int partOfWorkgroup() {
+  if (!isAmongQuiet()) return kSteers;
+  if (!isMeasuredThoughQuiet(gl_WorkGroupID.xy, frame.frameIndex)) return kNothing;
+  return haveQuietInnovations(frame.frameIndex) ? kSteers : kMeasures;
+}
 
 vec4 accumulatedAt(ivec2 p) {
   return kPackedMean ? unpackAccumulated(texelFetch(accumulatedPacked, p, 0).x) : texelFetch(accumulatedHalf, p, 0);
@@ -225,7 +249,17 @@ void storeSums(Measured pixel) {
   imageStore(outInnovationSums, tile, clamp(scale * others, -most, most));
 }
 
-// The light of a pixel. It is fetched before the prediction, so that both wait for memory at the same time.
+// What a workgroup that takes no part leaves to later frames: nothing.
+void storeNoSums(ivec2 p, bool hasPixel) {
+  if (hasPixel) storeInnovation(p, 0.0);
+  if (gl_LocalInvocationIndex != 0u) return;
+  const ivec2 tile = ivec2(gl_WorkGroupID.xy);
+  imageStore(outResidualSums, tile, vec4(0.0));
+  imageStore(outResidualSums, tile + ivec2(imageSize(outResidualSums).x / 2, 0), vec4(0.0));
+  imageStore(outInnovationSums, tile, vec4(0.0));
+}
+
+// The light of a pixel.
 struct FetchedLight {
   vec4 mean;
   vec3 noisy;
@@ -258,7 +292,7 @@ Accumulated accumulatedWithAntilag(FetchedLight fetched, Shown shown) {
 }
 
 // The prediction of a pixel mixed with its accumulated light. All threads of the workgroup must call it.
-vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown) {
+vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, bool steers) {
   const Accumulated accumulated = accumulatedWithAntilag(fetched, shown);
   const Residual own = accumulated.residual;
   shareResidual(hasPixel, shown, own);
@@ -282,7 +316,7 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown) 
       measured.statistics =
           vec4(statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples),
                statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), length));
-      measured.innovation = innovationTerms(innovation, before);
+      if (steers) measured.innovation = innovationTerms(innovation, before);
       measured.far = vec4(farProduct(surface, own, 0), farProduct(surface, own, 1));
     }
   }

@@ -291,14 +291,20 @@ void main() {
                                             : vec2(thread - kBlockSize * square) / float(kBlockSize);
   const BilinearTexels nearBlocks = BilinearTexels(kTileSquares * ivec2(gl_WorkGroupID.xy) + square - 1, fraction);
 #ifdef RESIDUAL
-  const FetchedLight fetched = fetchLight(clamp(p, ivec2(0), textureSize(depth, 0) - 1));
+  const int part = partOfWorkgroup();
   Shown shown = Shown(false, vec3(0.0), vec3(0.0), vec3(0.0));
   if (hasPixel) {
     vec3 position, normal, colour;
     if (predict(p, nearBlocks, position, normal, colour)) shown = Shown(true, position, normal, colour);
   }
-  const vec3 mixed = withAccumulated(p, hasPixel, fetched, shown);
-  if (hasPixel) storeResult(p, shown.surface, mixed);
+  vec3 result = shown.predicted;
+  if (part != kNothing) {
+    const FetchedLight fetched = fetchLight(clamp(p, ivec2(0), textureSize(depth, 0) - 1));
+    result = withAccumulated(p, hasPixel, fetched, shown, part == kSteers);
+  } else {
+    storeNoSums(p, hasPixel);
+  }
+  if (hasPixel) storeResult(p, shown.surface, result);
 #else
   if (hasPixel) {
     vec3 position, normal;

@@ -20,13 +20,14 @@ uniform texture2D previousStatistics;
 uniform texture2D previousAgreement;
 uniform texture2D previousLeastAntilag;
 layout(rgba32f) uniform writeonly image2D outStatistics;  // As the sums.
-layout(rgba32f) uniform writeonly image2D outAgreement;  // xy: sums of the products two pixels apart; z: trust.
+// xy: sums of the products two pixels apart; z: trust; w: tileState.
+layout(rgba32f) uniform writeonly image2D outAgreement;
 layout(r32f) uniform writeonly image2D outLeastAntilag;
 layout(r32ui) uniform writeonly uimage2D outShortening;  // Of the history of anti-aliasing: 0 not at all, 1 to none.
 layout(push_constant) uniform PushConstants { ResidualStatisticsConstants constants; };
 #include "regression/best_share.glsl"
-#include "conventions/camera.glsl"
-#include "conventions/surface.glsl"
+#include "regression/quiet_tiles.glsl"
+#include "regression/tile_before.glsl"
 
 ivec2 tilesOfImage() { return textureSize(innovationSums, 0); }
 
@@ -34,18 +35,7 @@ ivec2 tilesOfImage() { return textureSize(innovationSums, 0); }
 bool hasPrevious() { return frame.previousPixelFromPixel == vec2(1.0); }
 
 // The tile that showed the middle of this one in the previous frame, if nothing but the camera moved.
-ivec2 previousTile(ivec2 tile) {
-  if (!hasPrevious()) return ivec2(-1);
-  const ivec2 first = kTileSize * tile - constants.tileOffset;
-  const ivec2 p = clamp(first + kTileSize / 2, ivec2(0), textureSize(depth, 0) - 1);
-  const float z = unpackDepthBesideNormal(texelFetch(depth, p, 0).x);
-  if (z == 0.0) return tile;
-  const vec3 before =
-      previousPosition(frame.previousViewFromView, z * rayThrough(frame.rayFromPixel, pixelCentre(p)));
-  if (before.z >= 0.0) return ivec2(-1);
-  const vec2 pixel = nearPixelOf(frame.previousRayFromPixel, before);
-  return ivec2(floor((pixel + float(constants.tileOffset)) / float(kTileSize)));
-}
+ivec2 previousTile(ivec2 tile) { return ivec2(floor(tileBefore(tile, kTileSize, constants.tileOffset))); }
 
 const int kAntilagSpan = 7 * kAntilagTile / kTileSize + 2;  // Tiles that a row of eight tiles of antilag spans.
 const int kAntilagSide = kAntilagSpan + 2 * kRadius;
@@ -65,21 +55,46 @@ float trustIn(vec4 both, vec2 far) {
   return clamp((continuing / max(both.x + both.z, 1e-30) - kNone) / (kFull - kNone), 0.0, 1.0);
 }
 
+// A tile is quiet if no pixel can have a share: that of the longest history, which has the least noise, is too small.
+// Where nothing has been measured, in a first frame or in the sky, it takes a second frame. `hasEdges`: whether pixels
+// beside an edge have been measured in the tile itself. `before`: the state in the last frame.
+float stateOf(vec4 interior, vec4 edge, bool hasEdges, float trust, float before) {
+  if (interior == vec4(0.0) && edge == vec4(0.0)) return tileState(before > 0.0, 1.0);
+  const float withEdges = hasEdges ? float(kQuietFrames) : max(framesWithEdges(before) - 1.0, 0.0);
+  const float n = constants.maxHistory;
+  const float share = max(bestShare(interior.xy, n, trust, constants.residualGain),
+                          bestShare(interior.zw, n, trust, constants.residualGain));
+  const float besideEdge = max(bestShare(edge.xy, n, trust, constants.residualEdgeGain),
+                               bestShare(edge.zw, n, trust, constants.residualGain));
+  return tileState(max(share, withEdges > 0.0 ? besideEdge : 0.0) < constants.quietShare, withEdges);
+}
+
+// The tile of this thread, of the image whose window has just been summed.
+vec4 tileInShared() {
+  const ivec2 t = ivec2(gl_LocalInvocationID.xy) + kRadius;
+  return sharedTiles[t.y * kSide + t.x];
+}
+
 // All threads must call it.
 void storeStatistics(ivec2 tile) {
   const ivec2 size = tilesOfImage(), rightHalf = ivec2(size.x, 0);
   vec4 interior = windowSum(sums, ivec2(0)), edge = windowSum(sums, rightHalf);
+  const bool hasEdges = tileInShared() != vec4(0.0);
   vec2 far = windowSum(innovationSums, ivec2(0)).zw;
   if (any(greaterThanEqual(tile, size))) return;
   const ivec2 before = previousTile(tile);
+  vec4 agreement = vec4(0.0);
   if (all(greaterThanEqual(before, ivec2(0))) && all(lessThan(before, size))) {
-    interior += constants.kept * texelFetch(previousStatistics, before, 0);
-    edge += constants.kept * texelFetch(previousStatistics, before + rightHalf, 0);
-    far += constants.kept * texelFetch(previousAgreement, before, 0).xy;
+    agreement = texelFetch(previousAgreement, before, 0);
+    const float kept = isQuiet(agreement.w) ? constants.keptQuiet : constants.kept;
+    interior += kept * texelFetch(previousStatistics, before, 0);
+    edge += kept * texelFetch(previousStatistics, before + rightHalf, 0);
+    far += kept * agreement.xy;
   }
   imageStore(outStatistics, tile, interior);
   imageStore(outStatistics, tile + rightHalf, edge);
-  imageStore(outAgreement, tile, vec4(far, trustIn(interior + edge, far), 0.0));
+  const float trust = trustIn(interior + edge, far);
+  imageStore(outAgreement, tile, vec4(far, trust, stateOf(interior, edge, hasEdges, trust, agreement.w)));
 }
 
 // The tile that holds the middle of a tile of antilag.
@@ -88,18 +103,19 @@ ivec2 tileOfSumsAt(ivec2 tile) {
   return min((kAntilagTile * tile + middle) / kTileSize, tilesOfImage() - 1);
 }
 
-// Slope of the regression of innovations on those of the frame before, in the window around a tile. Without noise it is
-// how much more the last frame should have counted. If only noise parts light and history, it is minus half of the share
-// with which it counted. All threads must call it.
-float innovationSlope(ivec2 tileOfSums) {
+// Sums of innovationTerms in the window around a tile, and the number of tiles that have some. All threads must call it.
+vec3 innovationsAround(ivec2 tileOfSums) {
   const ivec2 first = tileOfSumsAt(ivec2(gl_WorkGroupID.xy) * kGroup);
   shareTiles(innovationSums, ivec2(0), first - kRadius, kAntilagSide);
   const ivec2 inShared = tileOfSums - first;
-  vec2 sum = vec2(0.0);
+  vec3 sum = vec3(0.0);
   for (int y = 0; y <= 2 * kRadius; ++y) {
-    for (int x = 0; x <= 2 * kRadius; ++x) sum += sharedTiles[(inShared.y + y) * kAntilagSide + inShared.x + x].xy;
+    for (int x = 0; x <= 2 * kRadius; ++x) {
+      const vec2 terms = sharedTiles[(inShared.y + y) * kAntilagSide + inShared.x + x].xy;
+      sum += vec3(terms, terms.y > 0.0 ? 1.0 : 0.0);
+    }
   }
-  return sum.y > 0.0 ? sum.x / sum.y : 0.0;
+  return sum;
 }
 
 // How far anti-aliasing shortens its history. Its mean removes noise, and reprojection blurs it. Where the accumulated
@@ -117,15 +133,19 @@ float shorteningOf(ivec2 tileOfSums, float trust) {
 // has this length. Stores how far anti-aliasing shortens its own, too. All threads must call it.
 void storeHistoryLengths(ivec2 tile) {
   const ivec2 tileOfSums = tileOfSumsAt(tile);
-  const float slope = innovationSlope(tileOfSums);
+  const vec3 sums = innovationsAround(tileOfSums);
   if (any(greaterThanEqual(tile, imageSize(outLeastAntilag)))) return;
   const float longest = constants.maxHistory, shortest = 2.0;  // Innovations need a history.
   const float previous = hasPrevious() ? texelFetch(previousLeastAntilag, tile, 0).x : 0.0;
   const float before = longest * (1.0 - previous) + 1.0;
+  // The slope of the regression of innovations on those of the frame before is, without noise, how much more the last frame
+  // should have counted. If only noise parts light and history, it is minus half of the share with which it counted.
+  // Quiet tiles have innovations in every second frame. The slope of few tiles is noise.
+  const float enough = 16.0;
+  const float excess = sums.y > 0.0 ? sums.x / sums.y + constants.innovationBias : 0.0;
   // Noise that successive frames share lets innovations agree, too: history is shortened as far as there is trust.
-  const float excess = slope + constants.innovationBias;
   const float trust = hasPrevious() ? texelFetch(previousAgreement, tileOfSums, 0).z : 0.0;
-  const float change = constants.innovationGain * (excess > 0.0 ? trust * excess : excess);
+  const float change = min(sums.z / enough, 1.0) * constants.innovationGain * (excess > 0.0 ? trust * excess : excess);
   const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
   const float factor = 1.0 - (frames - 1.0) / longest;
   imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));

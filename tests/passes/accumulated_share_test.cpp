@@ -81,6 +81,17 @@ Light withSharedNoise(Light light) {
   return light;
 }
 
+/// Light and history that differ from their mean in patterns whose product is 0 in the mean, as noise does.
+Light unrelatedLight() {
+  Light light;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const double y = p.x % 2 == 0 ? 1.9 : 0.1, h = p.y % 2 == 0 ? 1.7 : 0.3;
+    light.lighting[p] = glm::dvec4(glm::dvec3(y), 1.0);
+    light.mean[p] = glm::dvec4(glm::dvec3(h + (y - h) / kSamples), kSamples);
+  });
+  return light;
+}
+
 class FilterOf {
  public:
   FilterOf(const fg::test::TestDevice& device, const Scene& scene, bool share)
@@ -89,15 +100,19 @@ class FilterOf {
         run_(
             device, kSize, 2,
             [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
-              const BlockLight light{
-                  .accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
+              BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
+              // Tells the share that no history is longer.
+              light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(kSamples));
               BlockRegressionSettings settings{.size = kBlock, .iterations = 2, .coarseSigma = 0.15F};
               settings.share.enabled = share;
               return addBlockFilter(graph, frame, light, guides, settings);
             },
             true) {}
 
-  Image<glm::dvec4> filter(const Light& light) { return run_.run(frame_, guides_, {light.mean, light.lighting}); }
+  Image<glm::dvec4> filter(const Light& light, std::uint32_t frameIndex = 0) {
+    frame_.constants.frameIndex = frameIndex;
+    return run_.run(frame_, guides_, {light.mean, light.lighting});
+  }
   /// The result once the statistics are those of this light.
   Image<glm::dvec4> settled(const Light& light) {
     static_cast<void>(filter(light));
@@ -138,25 +153,74 @@ using Levels = std::array<Level, 2>;
 /// Pixels with the same surface all around, then pixels beside an edge.
 using Classes = std::array<Levels, 2>;
 
-/// What the result is, in double precision, if the camera stands still, all pixels have kSamples samples, and every
-/// frame so far had this light and this prediction.
+glm::ivec2 tileOf(glm::ivec2 p) {
+  return (p + kBefore) / kTile;
+}
+const glm::ivec2 kTiles = tileOf(kSize - 1) + 1;
+
+/// What is known of every tile: sums over the window around it.
+struct Statistics {
+  Image<Classes> levels{kTiles};
+  Image<glm::dvec2> far{kTiles};  ///< Products two pixels apart, by axis.
+  Image<double> light{kTiles};    ///< Predicted luminance, summed over the pixels of the window.
+};
+
+/// 1 where the agreement of light and history goes on from pixel to pixel, 0 where it is noise that both share.
+double trustIn(const Classes& sums, glm::dvec2 far) {
+  const double around = sums[0][0].missed + sums[1][0].missed, detail = sums[0][1].missed + sums[1][1].missed;
+  const double continuing = std::max(around, 0.0) + 1.25 * std::max(std::abs(far.x), std::abs(far.y));
+  return std::clamp((continuing / std::max(around + detail, 1e-30) - 0.75) / 0.2, 0.0, 1.0);
+}
+
+/// What the fits miss, times `gain`, and the noise of a mean of samples.
+Level weighed(const Level& level, double samples, double gain) {
+  return {gain * std::max(level.missed, 0.0), std::max(level.noise, 0.0) / samples};
+}
+double bestShare(const Level& weighed, double trust) {
+  return trust * weighed.missed / std::max(weighed.missed + weighed.noise, 1e-30);
+}
+
+/// What the result is, in double precision, if the camera stands still and all pixels have kSamples samples. The
+/// statistics are those of earlier frames that all had this light and this prediction, unless others are given.
 class ExpectedResult {
  public:
   ExpectedResult(const FilterOf& filter, const Light& light, const Image<glm::dvec4>& predicted)
-      : guides_(filter.guides()), constants_(filter.constants()), statistics_(grid_), far_(grid_) {
+      : guides_(filter.guides()), constants_(filter.constants()) {
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       const double y = luminanceOf(light.lighting[p]), m = luminanceOf(light.mean[p]), x = luminanceOf(predicted[p]);
       const double h = (kSamples * m - y) / (kSamples - 1.0);
       own_[p] = {y - x, h - x, m - x};
     });
     reference::forEachPixel(kSize, [&](glm::ivec2 p) { lookAround(p); });
-    sumOverWindows(predicted);
+    sumOverTiles(predicted);
+    statistics_ = statistics([](glm::ivec2) { return true; });
+  }
+
+  /// Sums over the windows around all tiles, of the tiles that take part.
+  template <typename TakesPart>
+  [[nodiscard]] Statistics statistics(const TakesPart& takesPart) const {
+    Statistics sums;
+    reference::forEachPixel(kTiles, [&](glm::ivec2 t) {
+      reference::forEachPixel(kTiles, [&](glm::ivec2 q) {
+        if (!takesPart(q)) return;
+        const double weight = weightOf(q, t), scale = weight * pixels_[q] / tileLight_[q];
+        for (int axis = 0; axis < 2; ++axis) {
+          const glm::dvec2 products = products_[axis][q];
+          sums.far[t][axis] += scale * products.x * std::min(pixels_[q] / std::max(products.y, 1.0), 4.0);
+        }
+        for (int c = 0; c < 2; ++c) {
+          for (int level = 0; level < 2; ++level) sums.levels[t][c][level].add(tiles_[q][c][level], scale);
+        }
+        sums.light[t] += weight * tileLight_[q];
+      });
+    });
+    return sums;
   }
 
   /// Luminance that the result has more than the prediction, by level.
-  [[nodiscard]] std::array<double, 2> added(glm::ivec2 p) const { return added(p, *this, kSamples); }
-  /// The same with residuals of light and prediction of another frame, whose pixels around p have `samples` samples.
-  [[nodiscard]] std::array<double, 2> added(glm::ivec2 p, const ExpectedResult& other, double samples) const {
+  [[nodiscard]] std::array<double, 2> added(glm::ivec2 p) const { return added(p, statistics_, kSamples); }
+  /// The same with other statistics, of pixels that have `samples` samples, as have those around them.
+  [[nodiscard]] std::array<double, 2> added(glm::ivec2 p, const Statistics& statistics, double samples) const {
     const glm::dvec2 at = (glm::dvec2(p) + 0.5 + double(kBefore)) / double(kTile) - 0.5;
     const glm::dvec2 base = glm::floor(at), f = at - base;
     Levels known;
@@ -164,16 +228,17 @@ class ExpectedResult {
     for (int i = 0; i < 4; ++i) {
       const glm::ivec2 corner(i & 1, i >> 1);
       const double weight = (corner.x == 1 ? f.x : 1.0 - f.x) * (corner.y == 1 ? f.y : 1.0 - f.y);
-      const glm::ivec2 tile = glm::clamp(glm::ivec2(base) + corner, glm::ivec2(0), grid_ - 1);
-      for (int level = 0; level < 2; ++level) known[level].add(statistics_[tile][edges_[p]][level], weight);
-      trust += weight * trustIn(statistics_[tile], far_[tile]);
+      const glm::ivec2 tile = glm::clamp(glm::ivec2(base) + corner, glm::ivec2(0), kTiles - 1);
+      for (int level = 0; level < 2; ++level) known[level].add(statistics.levels[tile][edges_[p]][level], weight);
+      trust += weight * trustIn(statistics.levels[tile], statistics.far[tile]);
     }
-    const double around = other.around_[p].mean;
+    const double around = around_[p].mean;
     const AccumulatedShareSettings settings;
     const double aroundGain = besideEdge(p) ? settings.edgeGain : settings.gain;
     return {shareOf(known[0], trust, samples, aroundGain) * around,
-            shareOf(known[1], trust, samples, settings.gain) * (other.own_[p].mean - around)};
+            shareOf(known[1], trust, samples, settings.gain) * (own_[p].mean - around)};
   }
+  [[nodiscard]] const Statistics& statistics() const { return statistics_; }
   /// Sum of the residuals that the shares multiply, as absolute values.
   [[nodiscard]] double residuals(glm::ivec2 p) const {
     return std::abs(around_[p].mean) + std::abs(own_[p].mean - around_[p].mean);
@@ -181,28 +246,32 @@ class ExpectedResult {
   /// Whether some tile is trusted in part only.
   [[nodiscard]] bool trustsInPart() const {
     bool found = false;
-    reference::forEachPixel(grid_, [&](glm::ivec2 t) {
-      const double trust = trustIn(statistics_[t], far_[t]);
+    reference::forEachPixel(kTiles, [&](glm::ivec2 t) {
+      const double trust = trustIn(statistics_.levels[t], statistics_.far[t]);
       found = found || (trust > 0.1 && trust < 0.9);
     });
     return found;
   }
+  [[nodiscard]] bool hasEdges(glm::ivec2 tile) const {
+    const Levels& sums = tiles_[tile][1];
+    return sums[0].missed != 0.0 || sums[0].noise != 0.0 || sums[1].missed != 0.0 || sums[1].noise != 0.0;
+  }
   [[nodiscard]] bool besideEdge(glm::ivec2 p) const { return edges_[p] != 0; }
   /// How far anti-aliasing shortens its history in a tile of antilag, and how far the device may be from this.
   [[nodiscard]] std::pair<double, double> shortening(glm::ivec2 tileOfAntilag) const {
-    const glm::ivec2 tile = glm::min(tileOf(kAntilagTile * tileOfAntilag + kAntilagTile / 2), grid_ - 1);
+    const glm::ivec2 tile = glm::min(tileOf(kAntilagTile * tileOfAntilag + kAntilagTile / 2), kTiles - 1);
     Level all;
-    for (const Levels& levels : statistics_[tile]) {
+    for (const Levels& levels : statistics_.levels[tile]) {
       for (const Level& level : levels) all.add(level, 1.0);
     }
     const AccumulatedShareSettings settings;
     const auto [missed, noise] = weighed(all, kSamples, settings.gain);
-    const double share = bestShare({missed, noise}, trustIn(statistics_[tile], far_[tile]));
+    const double share = bestShare({missed, noise}, trustIn(statistics_.levels[tile], statistics_.far[tile]));
     // The device's residuals differ from the test's by 2^-11 of the light (toleranceOf). Relative to the light, y - p
     // has a mean square of about 1 and h - p one of 1/7, so that the mean of their product differs by at most (1 + .4)
     // 2^-11, and that of (m - p)^2, 1/8, by .7 x 2^-11.
-    const double ofMissed = settings.gain * 1.4 * std::exp2(-11.0) * light_[tile];
-    const double ofNoise = (1.4 + 0.7) * std::exp2(-11.0) * light_[tile];
+    const double ofMissed = settings.gain * 1.4 * std::exp2(-11.0) * statistics_.light[tile];
+    const double ofNoise = (1.4 + 0.7) * std::exp2(-11.0) * statistics_.light[tile];
     const double ofShare = (ofMissed * noise + ofNoise * missed) / ((missed + noise) * (missed + noise));
     constexpr double kRange = 0.5;
     return {std::clamp((share - settings.antialiasingShare) / kRange, 0.0, 1.0), ofShare / kRange + std::exp2(-11.0)};
@@ -216,22 +285,6 @@ class ExpectedResult {
     return weight.x * weight.y;
   }
 
-  static glm::ivec2 tileOf(glm::ivec2 p) { return (p + kBefore) / kTile; }
-
-  /// 1 where the agreement of light and history goes on from pixel to pixel, 0 where it is noise that both share.
-  static double trustIn(const Classes& sums, glm::dvec2 far) {
-    const double around = sums[0][0].missed + sums[1][0].missed, detail = sums[0][1].missed + sums[1][1].missed;
-    const double continuing = std::max(around, 0.0) + 1.25 * std::max(std::abs(far.x), std::abs(far.y));
-    return std::clamp((continuing / std::max(around + detail, 1e-30) - 0.75) / 0.2, 0.0, 1.0);
-  }
-
-  /// What the fits miss, times `gain`, and the noise of a mean of samples.
-  static Level weighed(const Level& level, double samples, double gain) {
-    return {gain * std::max(level.missed, 0.0), std::max(level.noise, 0.0) / samples};
-  }
-  static double bestShare(const Level& weighed, double trust) {
-    return trust * weighed.missed / std::max(weighed.missed + weighed.noise, 1e-30);
-  }
   static double shareOf(const Level& level, double trust, double samples, double gain) {
     const double least = AccumulatedShareSettings{}.leastShare;
     return std::clamp((bestShare(weighed(level, samples, gain), trust) - least) / (1.0 - least), 0.0, 1.0);
@@ -278,42 +331,76 @@ class ExpectedResult {
     return {0.5 * (own_[p].noisy * own_[q].history + own_[p].history * own_[q].noisy), 1.0};
   }
 
-  void sumOverWindows(const Image<glm::dvec4>& predicted) {
-    Image<Classes> tiles(grid_);
-    Image<double> light(grid_), pixels(grid_);
-    std::array<Image<glm::dvec2>, 2> far{Image<glm::dvec2>(grid_), Image<glm::dvec2>(grid_)};  // By axis.
+  void sumOverTiles(const Image<glm::dvec4>& predicted) {
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       const glm::ivec2 t = tileOf(p);
-      Levels& sums = tiles[t][edges_[p]];
+      Levels& sums = tiles_[t][edges_[p]];
       sums[0].add(levelOf(around_[p]), 1.0);
       sums[1].add(levelOf(own_[p] - around_[p]), 1.0);
-      for (int axis = 0; axis < 2; ++axis) far[axis][t] += farProduct(p, axis);
-      light[t] += luminanceOf(predicted[p]);
-      pixels[t] += 1.0;
-    });
-    reference::forEachPixel(grid_, [&](glm::ivec2 t) {
-      reference::forEachPixel(grid_, [&](glm::ivec2 q) {
-        const double weight = weightOf(q, t), scale = weight * pixels[q] / light[q];
-        for (int axis = 0; axis < 2; ++axis) {
-          const glm::dvec2 products = far[axis][q];
-          far_[t][axis] += scale * products.x * std::min(pixels[q] / std::max(products.y, 1.0), 4.0);
-        }
-        for (int c = 0; c < 2; ++c) {
-          for (int level = 0; level < 2; ++level) statistics_[t][c][level].add(tiles[q][c][level], scale);
-        }
-        light_[t] += weight * light[q];
-      });
+      for (int axis = 0; axis < 2; ++axis) products_[axis][t] += farProduct(p, axis);
+      tileLight_[t] += luminanceOf(predicted[p]);
+      pixels_[t] += 1.0;
     });
   }
 
   const Image<reference::Guide>& guides_;
   FrameConstants constants_;
-  glm::ivec2 grid_ = tileOf(kSize - 1) + 1;
   Image<Residual> own_{kSize}, around_{kSize};
   Image<int> edges_{kSize};
-  Image<Classes> statistics_;
-  Image<glm::dvec2> far_;
-  Image<double> light_{grid_};  ///< Predicted luminance, summed over the pixels of the window.
+  Image<Classes> tiles_{kTiles};
+  std::array<Image<glm::dvec2>, 2> products_{Image<glm::dvec2>(kTiles), Image<glm::dvec2>(kTiles)};  ///< By axis.
+  Image<double> tileLight_{kTiles}, pixels_{kTiles};
+  Statistics statistics_;
+};
+
+/// Statistics over frames while the camera stands still. Tiles without a share are quiet: they are measured in two of
+/// sixteen frames.
+class MeasuredFrames {
+ public:
+  [[nodiscard]] const Statistics& statistics() const { return sums_; }
+  [[nodiscard]] int quietTiles() const {
+    int count = 0;
+    reference::forEachPixel(kTiles, [&](glm::ivec2 t) { count += quiet_[t]; });
+    return count;
+  }
+  [[nodiscard]] bool takesPart(glm::ivec2 tile, std::uint32_t frameIndex) const {
+    return quiet_[tile] == 0 || (tile.x + 3 * tile.y + 5 * int(frameIndex / 2)) % 8 == 0;
+  }
+
+  void add(const ExpectedResult& frame, std::uint32_t frameIndex) {
+    const AccumulatedShareSettings settings;
+    Statistics now = frame.statistics([&](glm::ivec2 tile) { return takesPart(tile, frameIndex); });
+    Image<int> quiet(kTiles);
+    reference::forEachPixel(kTiles, [&](glm::ivec2 t) {
+      const double kept = 1.0 - 1.0 / (settings.frames * (quiet_[t] == 0 ? 1.0 : 2.0));
+      Classes& levels = now.levels[t];
+      now.far[t] += kept * sums_.far[t];
+      now.light[t] += kept * sums_.light[t];
+      for (int c = 0; c < 2; ++c) {
+        for (int level = 0; level < 2; ++level) levels[c][level].add(sums_.levels[t][c][level], kept);
+      }
+      const bool hasEdges = takesPart(t, frameIndex) && frame.hasEdges(t);
+      withEdges_[t] = hasEdges ? 16 : std::max(withEdges_[t] - 1, 0);
+      const double trust = trustIn(levels, now.far[t]);
+      double most = 0.0;
+      for (int c = 0; c < (withEdges_[t] == 0 ? 1 : 2); ++c) {
+        const std::array gains{c == 1 ? settings.edgeGain : settings.gain, settings.gain};
+        for (int level = 0; level < 2; ++level) {
+          most = std::max(most, bestShare(weighed(levels[c][level], kSamples, gains[level]), trust));
+        }
+      }
+      const double quietShare = 0.75 * settings.leastShare;
+      EXPECT_GT(std::abs(most / quietShare - 1.0), 0.002)
+          << t.x << ", " << t.y;  // The device's rounding decides nothing.
+      quiet[t] = most < quietShare ? 1 : 0;
+    });
+    quiet_ = quiet;
+    sums_ = std::move(now);
+  }
+
+ private:
+  Statistics sums_;
+  Image<int> quiet_{kTiles}, withEdges_{kTiles};
 };
 
 /// How far the result of a pixel with this light may be from double precision.
@@ -344,6 +431,8 @@ class AccumulatedShare : public fg::test::GpuTest {
     FilterOf filter(device(), scene, true);
     const ExpectedResult expected(filter, light, predicted);
     EXPECT_TRUE(expected.trustsInPart() || !partly);
+    MeasuredFrames measured;
+    measured.add(expected, 0);
     // The first frame has no statistics.
     const Image<glm::dvec4> first = filter.filter(light);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) { EXPECT_EQ(first[p], predicted[p]); });
@@ -352,7 +441,9 @@ class AccumulatedShare : public fg::test::GpuTest {
       bool edges = false;
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         edges = edges || expected.besideEdge(p);
-        const auto [around, detail] = expected.added(p);
+        const auto [around, detail] = measured.takesPart(tileOf(p), 0)
+                                          ? expected.added(p, measured.statistics(), kSamples)
+                                          : std::array{0.0, 0.0};
         const double x = predicted[p].g;
         const double tolerance =
             toleranceOf(std::max(x, light.mean[p].g), expected.residuals(p), expected.trustsInPart());
@@ -360,6 +451,7 @@ class AccumulatedShare : public fg::test::GpuTest {
             << p.x << ", " << p.y << ", frame " << frame;
       });
       EXPECT_EQ(edges, hasEdges);
+      measured.add(expected, 0);
     }
   }
 };
@@ -370,6 +462,36 @@ TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
     expectAgreement(light, scene, hasEdges, false);
     expectAgreement(withSharedNoise(light), scene, hasEdges, true);
   }
+}
+
+// Light that comes to have detail while its tiles are quiet. Few of them measure it in each frame, until all wake.
+TEST_F(AccumulatedShare, QuietTilesTakePartInTurn) {
+  const Light unrelated = unrelatedLight(), stripes = stripedLight(0.17, 0.5);
+  FilterOf fits(device(), flatWall(), false), filter(device(), flatWall(), true);
+  MeasuredFrames measured;
+  int quietFrames = 0, awakeFrames = 0;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    SCOPED_TRACE("frame " + std::to_string(i));
+    const Light& light = i < 2 ? unrelated : stripes;
+    const Image<glm::dvec4> predicted = fits.filter(light, i), actual = filter.filter(light, i);
+    const ExpectedResult expected(fits, light, predicted);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      const double x = predicted[p].g;
+      if (!measured.takesPart(tileOf(p), i)) {
+        EXPECT_EQ(actual[p].g, x) << p.x << ", " << p.y;
+        return;
+      }
+      const auto [around, detail] = expected.added(p, measured.statistics(), kSamples);
+      EXPECT_NEAR(actual[p].g, std::max(x + around + detail, 0.0),
+                  toleranceOf(std::max(x, light.mean[p].g), expected.residuals(p), false))
+          << p.x << ", " << p.y;
+    });
+    measured.add(expected, i);
+    quietFrames += measured.quietTiles() == kTiles.x * kTiles.y ? 1 : 0;
+    awakeFrames += measured.quietTiles() == 0 ? 1 : 0;
+  }
+  EXPECT_GT(quietFrames, 2);
+  EXPECT_GT(awakeFrames, 2);
 }
 
 TEST_F(AccumulatedShare, ShortensTheHistoryOfAntialiasing) {
@@ -428,7 +550,7 @@ TEST_F(AccumulatedShare, TakesMeansOfPixelsWithoutHistory) {
   double added = 0.0;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     if (p.x >= kAppearing - 1) return;  // Here, all of the 3 x 3 pixels have just appeared.
-    const auto [around, detail] = before.added(p, now, 1.0);
+    const auto [around, detail] = now.added(p, before.statistics(), 1.0);
     added = std::max(added, std::abs(around));
     const double x = predicted[p].g;
     const double tolerance = toleranceOf(std::max(x, appearing.mean[p].g), now.residuals(p), false);
