@@ -113,7 +113,7 @@ TEST_P(LightDenoisersTest, BothLightsAreThoseOfDenoisersOfTheirOwn) {
 
 INSTANTIATE_TEST_SUITE_P(
     Methods, LightDenoisersTest,
-    testing::Values(Choice{"walr", "standard", "fast"}, Choice{"walr", "fast", "standard"},
+    testing::Values(Choice{"walr"}, Choice{"walr", {}, {}, "blocks.residual", "off"},
                     Choice{"walr", {}, {}, "spatial-only", "on"}, Choice{"walr", {}, {}, "antialiasing.enabled", "off"},
                     Choice{"walr", {}, {}, "accumulation.storage", "half"},
                     Choice{"walr", {}, {}, "antialiasing.object-ids", "on"},
