@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-METHODS = ("walr,walr:fast,walr_paper,walr_paper:robust,refwlr,refwlr:paper,bmfr,bmfr:paper,svgf,svgf:paper,flr,flnr,"
+METHODS = ("walr,walr_paper,walr_paper:robust,refwlr,refwlr:paper,bmfr,bmfr:paper,svgf,svgf:paper,flr,flnr,"
            "flnr:paper,joint_bilateral,accumulate,none")
 
 

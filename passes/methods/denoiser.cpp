@@ -29,8 +29,7 @@ struct Preset {
 template <typename Settings>
 constexpr std::array<Preset<Settings>, 0> kPresets{};
 template <>
-constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"standard", [] { return WalrSettings{}; }},
-                                            Preset<WalrSettings>{"fast", fastWalr}};
+constexpr std::array kPresets<WalrSettings>{Preset<WalrSettings>{"standard", [] { return WalrSettings{}; }}};
 template <>
 constexpr std::array kPresets<WalrPaperSettings>{Preset<WalrPaperSettings>{"paper", paperWalr},
                                                  Preset<WalrPaperSettings>{"robust", robustWalr}};
@@ -53,8 +52,10 @@ template <typename Settings>
 constexpr std::string_view kFormerPresets{};
 template <>
 constexpr std::string_view kFormerPresets<WalrSettings> =
-    "; of the former presets, blocks and one-sample are now fast, many-samples is part of standard, and robust and "
-    "paper are presets of the method walr_paper";
+    "; of the former presets, fast, blocks, one-sample and many-samples are part of standard, which takes in "
+    "accumulated "
+    "light where that gains and takes no time for it elsewhere, and robust and paper are presets of the method "
+    "walr_paper";
 
 /// The scene that satisfies both descriptions.
 SceneDescription common(const SceneDescription& a, const SceneDescription& b) {

@@ -75,10 +75,4 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
-WalrSettings fastWalr() {
-  WalrSettings settings;
-  settings.blocks.share.enabled = false;
-  return settings;
-}
-
 }  // namespace walr

@@ -46,9 +46,6 @@ struct WalrSettings {
   }
 };
 
-/// Takes less time and memory traffic, and loses detail that no guide shows: the result takes in no accumulated light.
-WalrSettings fastWalr();
-
 /// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of
 /// pixels instead of pixels, which leaves room for depth and occlusion as features. See passes/WALR.md.
 /// @param output     RGBA16F texture to write the result to

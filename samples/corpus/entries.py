@@ -169,7 +169,7 @@ def figures():
 
 
 TIMES = {
-    "walr": 1.0, "walr:fast": 0.6, "walr_paper": 1.6, "bmfr": 0.9, "svgf": 2.2, "flr": 0.5, "accumulate": 0.2, "none": 0.03,
+    "walr": 1.0, "walr_paper": 1.6, "bmfr": 0.9, "svgf": 2.2, "flr": 0.5, "accumulate": 0.2, "none": 0.03,
     "walr_paper:robust": 1.7, "joint_bilateral": 14.0, "flnr": 3.6,
 }
 """Times of methods on two idle cores as multiples of that of `walr`."""

@@ -19,7 +19,7 @@ PLAIN = {"1/4": 2, "1/9": 3}
 """The plain alternative: rate, and the factor by which its frames are smaller on each side."""
 FINE = {"1, 4 hits": {"light_rate": "1/4"}, "4, 4 hits": {"samples": 1}, "16, 4 hits": {"samples": 4}, "64, 4 hits": {"samples": 16}}
 """Frames of twice the size on each side, so that a pixel of the picture has four primary hits: rate, and what makes it."""
-FINE_METHODS = ("walr", "walr:fast", "flr", "bmfr", "svgf", "accumulate", "none")
+FINE_METHODS = ("walr", "flr", "bmfr", "svgf", "accumulate", "none")
 """Methods that are run on them, all but the slowest."""
 
 

@@ -297,7 +297,7 @@ void ConformanceTest::hasTwoLightsOnSharedGuides() {
   compare({.state =
                [](WalrDenoiserInfo& info, WalrConventions&) {
                  info.light_count = 2;
-                 if (std::string_view(info.method) == "walr") info.second_preset = "fast";
+                 if (std::string_view(info.method) == "bmfr") info.second_preset = "paper";
                },
            .frames = 5,
            .resetAt = 3,

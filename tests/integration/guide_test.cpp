@@ -130,16 +130,12 @@ struct Costs {
   double transient;   ///< MiB.
 };
 
-/// @param second preset of the second light; null: there is one light
-Costs costsOf(const char* preset, const char* second) {
+/// @param lights number of lights that share their guides
+Costs costsOf(std::size_t lights) {
   constexpr fg::Extent kExtent{1920, 1080};
   constexpr double kMebibyte = 1024.0 * 1024.0;
   const auto method = makeDenoiser("walr");
-  method->usePreset(preset);
-  const auto other = makeDenoiser("walr");
-  if (second != nullptr) other->usePreset(second);
-  std::vector<Denoiser*> methods{method.get()};
-  if (second != nullptr) methods.push_back(other.get());
+  const std::vector<Denoiser*> methods(lights, method.get());
   const DenoiseGraph declared = declareDenoiseGraph(methods, kExtent, {}, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) throw std::runtime_error(result.text());
@@ -151,27 +147,15 @@ Costs costsOf(const char* preset, const char* second) {
 
 /// Denoisers that share objects keep their own histories, and use the memory of transients in turn.
 std::string twoLightsTable() {
-  struct Presets {
-    const char* name;
-    const char* first;
-    const char* second;
-  };
-  std::string text =
-      "| presets | bytes per pixel: two denoisers | shared guides | memory: two denoisers | shared guides |\n"
-      "| --- | --- | --- | --- | --- |\n";
-  for (const Presets& presets :
-       {Presets{"`standard` for both", "standard", "standard"}, Presets{"`standard` and `fast`", "standard", "fast"},
-        Presets{"`fast` for both", "fast", "fast"}}) {
-    const Costs first = costsOf(presets.first, nullptr);
-    const Costs second = costsOf(presets.second, nullptr);
-    const Costs shared = costsOf(presets.first, presets.second);
-    char row[128];
-    std::snprintf(row, sizeof(row), "| %s | %.1f | %.1f | %.1f | %.1f |\n", presets.name,
-                  first.bytesPerPixel + second.bytesPerPixel, shared.bytesPerPixel,
-                  first.persistent + second.persistent + std::max(first.transient, second.transient),
-                  shared.persistent + shared.transient);
-    text += row;
-  }
+  const Costs one = costsOf(1), shared = costsOf(2);
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                "| | two denoisers | shared guides |\n"
+                "| --- | --- | --- |\n"
+                "| bytes per pixel | %.1f | %.1f |\n"
+                "| memory, MiB | %.1f | %.1f |\n",
+                2.0 * one.bytesPerPixel, shared.bytesPerPixel, 2.0 * one.persistent + one.transient,
+                shared.persistent + shared.transient);
   return text;
 }
 

@@ -71,8 +71,9 @@ static void test_create(const WalrDevice* device) {
   EXPECT(walr_create_denoiser(&info, NULL), WALR_ERROR_INVALID_ARGUMENT, "null");
   REFUSED("WalrDevice is null", info.device = NULL);
   REFUSED("known methods: walr", info.method = "magic");
-  REFUSED("known presets: standard, fast; of the former presets, blocks and one-sample are now fast",
-          info.preset = "magic");
+  REFUSED(
+      "known presets: standard; of the former presets, fast, blocks, one-sample and many-samples are part of standard",
+      info.preset = "fast");
   REFUSED("there is no light direction: the method", info.method = "svgf", info.light_direction = VK_TRUE);
   REFUSED("there is no history length", info.method = "none", info.history_length = VK_TRUE);
   REFUSED("0 x 48", info.width = 0);
@@ -165,7 +166,7 @@ static void test_lights(const WalrDevice* device) {
   info.light_count = 2;
   info.second_preset = "magic";
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "no preset \"magic\"");
-  info.second_preset = "fast";
+  info.second_preset = "standard";
   info.light_count = 1;
   EXPECT(walr_create_denoiser(&info, &denoiser), WALR_ERROR_INVALID_ARGUMENT, "set light_count to 2");
   info.second_preset = NULL;
@@ -181,7 +182,7 @@ static void test_lights(const WalrDevice* device) {
   info = info_of(device);
   EXPECT_OK(walr_create_denoiser(&info, &denoiser));
   EXPECT(walr_set_setting(denoiser, "second.blocks.size", "5"), WALR_ERROR_INVALID_ARGUMENT, "second.blocks.size");
-  EXPECT(walr_use_preset(denoiser, "second.fast"), WALR_ERROR_INVALID_ARGUMENT, "second.fast");
+  EXPECT(walr_use_preset(denoiser, "second.standard"), WALR_ERROR_INVALID_ARGUMENT, "second.standard");
   WalrImageRequirements needs = {.struct_size = sizeof(needs)};
   EXPECT_OK(walr_get_image_requirements(denoiser, "second_lighting", &needs));
   EXPECT_TRUE(!needs.required);

@@ -145,7 +145,7 @@ void expectPlannedAs(const Link& wholeMethod, const char* preset, const std::vec
 TEST(Registry, StagesConnectedByNameArePlannedAsTheWholeMethodIs) {
   // With packed accumulation the whole method prepares guides and accumulates in one pass, which stages cannot.
   expectPlannedAs(
-      {"walr", {{"accumulation.storage", "half"}}}, "fast",
+      {"walr", {{"accumulation.storage", "half"}, {"blocks.residual", "off"}}}, nullptr,
       {{"prepare_guides_with_occlusion", {}},
        {"temporal_accumulation_with_taps",
         {{"accumulation.max-history", "8"}, {"accumulation.antilag", "on"}, {"antialiasing.storage", "packed"}}},

@@ -90,14 +90,14 @@ TEST_F(TwoLights, HavePresetsAndConventionsOfAHost) {
   conventions.struct_size = sizeof(conventions);
   conventions.pre_exposed = VK_TRUE;
   conventions.rectangle = VK_TRUE;
-  WalrDenoiserInfo one = described("walr");
+  WalrDenoiserInfo one = described("bmfr");
   one.conventions = &conventions;
   one.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT;
   WalrDenoiserInfo other = one;
-  other.preset = "fast";
+  other.preset = "paper";
   WalrDenoiserInfo both = one;
   both.light_count = 2;
-  both.second_preset = "fast";
+  both.second_preset = "paper";
   compare(both, one, other);
 }
 
@@ -162,11 +162,12 @@ TEST_F(TwoLights, HaveSettingsOfTheirOwn) {
   require(api().set_setting(denoiser, "second.accumulation.max-history", "7"));
   EXPECT_EQ(setting("accumulation.max-history"), "5");
   EXPECT_EQ(setting("second.accumulation.max-history"), "7");
-  require(api().use_preset(denoiser, "second.fast"));
-  EXPECT_EQ(setting("blocks.residual"), "on");
-  EXPECT_EQ(setting("second.blocks.residual"), "off");
-  require(api().use_preset(denoiser, "standard"));
+  require(api().set_setting(denoiser, "blocks.residual", "off"));
+  require(api().use_preset(denoiser, "second.standard"));
+  EXPECT_EQ(setting("blocks.residual"), "off");
   EXPECT_EQ(setting("second.blocks.residual"), "on");
+  require(api().use_preset(denoiser, "standard"));
+  EXPECT_EQ(setting("blocks.residual"), "on");
   require(api().prepare(denoiser));
   // Lights with other guides cannot share them.
   require(api().set_setting(denoiser, "second.occlusion.rings", "3"));

@@ -7,6 +7,13 @@
 
 namespace walr::test {
 
+/// The method without the share of accumulated light.
+inline WalrSettings walrWithoutShare() {
+  WalrSettings settings;
+  settings.blocks.share.enabled = false;
+  return settings;
+}
+
 /// Settings of `walr` or of `walr_paper`, for tests of what both methods promise.
 class AnyWalr {
  public:

@@ -108,13 +108,13 @@ class ManySamples : public fg::test::GpuTest {
   [[nodiscard]] Method standard(const Settings& settings = kWithoutAntialiasing) const {
     return {device(), "walr", "standard", settings};
   }
-  [[nodiscard]] Method fast() const { return {device(), "walr", "fast", kWithoutAntialiasing}; }
+  [[nodiscard]] Method withoutShare() const { return standard(with(kWithoutAntialiasing, "blocks.residual", "off")); }
 };
 
 TEST_F(ManySamples, MakeTheErrorSmaller) {
   const auto frames = walk(1, detailedLight);
   const double one = lastError(frames, standard());
-  EXPECT_LT(one, lastError(frames, fast()));
+  EXPECT_LT(one, lastError(frames, withoutShare()));
   // This project's requirement: at most .8 of the error with four times as many samples, and .6 with sixteen times.
   // Only the noise halves with each factor of four. Detail that no guide shows costs noise, so that the error falls
   // less.
@@ -130,7 +130,7 @@ TEST_F(ManySamples, GoodLightIsNotMadeWorse) {
   }
   EXPECT_LT(lastError(frames, standard()), 1.03 * input);
   // Blocks alone leave out the detail, however good the light is.
-  EXPECT_GT(lastError(frames, fast()), 2.0 * input);
+  EXPECT_GT(lastError(frames, withoutShare()), 2.0 * input);
 }
 
 // Without noise, anti-aliasing keeps no history, and its result is the current frame within 1 %, of which the rounding
@@ -161,7 +161,7 @@ TEST_F(ManySamples, HistoryIsShortWhereItBlurs) {
 TEST_F(ManySamples, HistoryIsLongWhereThereIsOnlyNoise) {
   const auto frames = walk(1, smoothLight);
   // `AccumulatedShareSettings::innovationBias` lets noise shorten history by 1 / 1.28. This raises the error by its root, 1.13.
-  EXPECT_LT(lastError(frames, standard()), 1.13 * lastError(frames, fast()));
+  EXPECT_LT(lastError(frames, standard()), 1.13 * lastError(frames, withoutShare()));
 }
 
 // A camera that stands still: the mean error of the accumulated light falls with the root of the number of frames, for
@@ -169,7 +169,8 @@ TEST_F(ManySamples, HistoryIsLongWhereThereIsOnlyNoise) {
 TEST_F(ManySamples, ErrorsFallForAsLongAsTheCameraStandsStill) {
   const Settings longest{{"accumulation.max-history", "255"}};
   const Settings blocks = with(with(longest, "antialiasing.enabled", "off"), "accumulation.storage", "half");
-  Method mixture = standard(blocks), mean(device(), "accumulate", "", longest), fits(device(), "walr", "fast", blocks);
+  Method mixture = standard(blocks), mean(device(), "accumulate", "", longest),
+         fits = standard(with(blocks, "blocks.residual", "off"));
   for (std::uint32_t i = 0; i < 256; ++i) {
     const NoisyFrame frame = frameOf(i, 1, 0.0, detailedLight);
     const double mixed = mixture.error(frame), accumulated = mean.error(frame), predicted = fits.error(frame);

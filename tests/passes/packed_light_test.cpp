@@ -353,20 +353,20 @@ struct NamedSettings {
   WalrSettings settings;
 };
 std::vector<NamedSettings> waysToReproject() {
-  WalrSettings apart = fastWalr();
+  WalrSettings apart = walrWithoutShare();
   apart.antialiasing.thresholds.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
-  WalrSettings byDepth = fastWalr();
+  WalrSettings byDepth = walrWithoutShare();
   byDepth.accumulation.rejection = byDepth.antialiasing.rejection = HistoryRejection::Depth;
   byDepth.accumulation.historyFilter = HistoryFilter::Bicubic;
   byDepth.accumulation.antilag.enabled = false;
-  WalrSettings untested = fastWalr();
+  WalrSettings untested = walrWithoutShare();
   untested.accumulation.rejection = untested.antialiasing.rejection = HistoryRejection::None;
   untested.antialiasing.maxHistory = 100.0F;
-  WalrSettings accumulationOnly = fastWalr();
+  WalrSettings accumulationOnly = walrWithoutShare();
   accumulationOnly.antialiasing.storage = LightStorage::Half;
-  WalrSettings antialiasingOnly = fastWalr();
+  WalrSettings antialiasingOnly = walrWithoutShare();
   antialiasingOnly.accumulation.storage = LightStorage::Half;
-  return {{"shared", fastWalr()},
+  return {{"shared", walrWithoutShare()},
           {"apart", apart},
           {"by depth", byDepth},
           {"untested", untested},
@@ -377,7 +377,7 @@ std::vector<NamedSettings> waysToReproject() {
 TEST_F(PackedLight, TemporalStagesAgreeWithTheReferenceOnEveryScene) {
   for (const NamedScene& named : allScenes()) {
     SCOPED_TRACE(named.name);
-    expectSequence(device(), movingFrames(named.scene, kSize), fastWalr());
+    expectSequence(device(), movingFrames(named.scene, kSize), walrWithoutShare());
   }
 }
 
@@ -404,7 +404,7 @@ TEST_F(PackedLight, TemporalStagesAgreeWithTheReferenceForEveryReprojection) {
 
 // The regression gives the same result for packed light as for the same light in halves, up to less than a step.
 TEST_F(PackedLight, BlocksGiveTheSameResultAsForHalves) {
-  const WalrSettings settings = fastWalr();  // Else light that no fit predicts is added.
+  const WalrSettings settings = walrWithoutShare();  // Else light that no fit predicts is added.
   FilterRun inHalves(
       device(), kSize, 1,
       [&](fg::Graph& graph, fg::Buffer frame, const walr::Guides& guides, const auto& inputs) {

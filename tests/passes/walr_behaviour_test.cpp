@@ -94,7 +94,7 @@ TEST_F(WalrBehaviourTest, ConstantLightComesBackUnchanged) {
   };
   expectUnchanged(allScenes(), robustWalr());
   expectUnchanged(allScenes(), WalrSettings{});
-  expectUnchanged(allScenes(), fastWalr());
+  expectUnchanged(allScenes(), walrWithoutShare());
   expectUnchanged(allScenes(), blocksInHalves());
   // The preset paper reads history with a bicubic filter and does not clip it, which takes in sky beside a surface.
   // These scenes have none.
@@ -257,7 +257,7 @@ TEST_F(WalrBehaviourTest, BrokenInputStaysFiniteAndDoesNotSpread) {
   const Case cases[] = {
       {robustWalr(), bumpyWall(0.1), Jitter::None},         {WalrSettings{}, bumpyWall(0.1), Jitter::None},
       {WalrSettings{}, bumpyWall(0.1), Jitter::EveryFrame}, {blocksInHalves(), bumpyWall(0.1), Jitter::EveryFrame},
-      {fastWalr(), bumpyWall(0.1), Jitter::None},           {paperWalr(), flatWall(), Jitter::None}};
+      {walrWithoutShare(), bumpyWall(0.1), Jitter::None},   {paperWalr(), flatWall(), Jitter::None}};
   for (const auto& [settings, scene, jitter] : cases) {
     WalrRun run = makeRun(kSmall, settings);
     for (const Damage& damage : allDamage()) {

@@ -65,11 +65,11 @@ std::vector<AnyWalr> jitteredSettings() {
   WalrPaperSettings apart = robustWalr();
   apart.antialiasing.thresholds.normalThreshold = 0.4F;  // Makes anti-aliasing do its own reprojection.
   apart.antialiasing.clipRadius = 2;
-  WalrSettings packedSurfaces = fastWalr();
+  WalrSettings packedSurfaces = walrWithoutShare();
   packedSurfaces.antialiasing.pixelArea = false;
-  WalrSettings packedApart = fastWalr();
+  WalrSettings packedApart = walrWithoutShare();
   packedApart.antialiasing.thresholds.normalThreshold = 0.4F;
-  return {robustWalr(), paperWalr(), surfaces, apart, fastWalr(), packedSurfaces, packedApart};
+  return {robustWalr(), paperWalr(), surfaces, apart, walrWithoutShare(), packedSurfaces, packedApart};
 }
 
 TEST_F(WalrHistoryTest, StagesAgreeWithTheReferenceUnderJitter) {

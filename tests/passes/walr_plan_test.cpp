@@ -97,17 +97,11 @@ TEST(WalrPlan, TheCoarseWindowIsWiderOnALightGridOnly) {
   EXPECT_FLOAT_EQ(coarseSigmaOf(planWalr(settings, {.hostAntialiasing = true}, kFullHd, quarter)), full);
 }
 
-// The project's budget: for the preset fast at the smallest image size for which it is measured and above, for the
-// default from the size on at which blocks have their full size.
+// The project's budget, from the size on at which blocks have their full size.
 TEST(WalrPlan, MovesAtMostHalfOfWhatThePaperMoves) {
-  const auto expectHalf = [](const WalrSettings& settings, fg::Extent extent) {
-    const std::uint64_t paper = planWalr(paperWalr(), {}, extent).bytesPerPixel();
-    EXPECT_LE(2 * planWalr(settings, {}, extent).bytesPerPixel(), paper) << extent.height;
-  };
-  expectHalf(fastWalr(), {480, 270});
   for (const fg::Extent extent : {fg::Extent{612, 344}, fg::Extent{960, 540}, kFullHd, fg::Extent{3840, 2160}}) {
-    expectHalf(fastWalr(), extent);
-    expectHalf({}, extent);
+    const std::uint64_t paper = planWalr(paperWalr(), {}, extent).bytesPerPixel();
+    EXPECT_LE(2 * planWalr(WalrSettings{}, {}, extent).bytesPerPixel(), paper) << extent.height;
   }
 }
 

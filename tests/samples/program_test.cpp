@@ -59,7 +59,7 @@ TEST(Program, EndsWithTheFirstCodeForAnyOtherError) {
 }
 
 TEST(ShellWord, IsQuotedOnlyWhereTheShellWouldChangeIt) {
-  EXPECT_EQ(shellWord("w=walr:fast,blocks.size=4"), "w=walr:fast,blocks.size=4");
+  EXPECT_EQ(shellWord("w=bmfr:paper,blocks.size=4"), "w=bmfr:paper,blocks.size=4");
   EXPECT_EQ(shellWord("my frames"), "'my frames'");
   EXPECT_EQ(shellWord("it's"), "'it'\\''s'");
   EXPECT_EQ(shellWord(""), "''");

@@ -339,7 +339,7 @@ WALR_API WalrResult walr_destroy_denoiser(WalrDenoiser denoiser);
 WALR_API WalrResult walr_resize(WalrDenoiser denoiser, uint32_t width, uint32_t height);
 /* With two lights: sets both, or the second one alone if the name begins with "second.": "second.blocks.residual". */
 WALR_API WalrResult walr_set_setting(WalrDenoiser denoiser, const char* name, const char* value);
-/* Replaces all settings. With two lights: of both, or of the second alone: "second.fast". */
+/* Replaces all settings. With two lights: of both, or of the second alone: "second.standard". */
 WALR_API WalrResult walr_use_preset(WalrDenoiser denoiser, const char* name);
 
 /* Current value of a setting as text, with its terminating zero. With two lights: that of the first, or with "second."

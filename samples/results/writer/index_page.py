@@ -39,8 +39,8 @@ def sizes_section(records):
 
 def speed_section(first, gpu):
     return ("## How long does a frame take, and what does the time buy?\n\n" +
-            filled(f"`walr` takes {gpu_page.gpu_time(gpu, 'walr')} ms for a frame of 1920 x 1080 on an {gpu['device']}, and its preset `fast` "
-                   f"{gpu_page.gpu_time(gpu, 'walr:fast')} ms. [Times by size and pass](GPU.md). The errors of the plot are those on "
+            filled(f"`walr` takes {gpu_page.gpu_time(gpu, 'walr')} ms for a frame of 1920 x 1080 on an {gpu['device']}. "
+                   f"[Times by size and pass](GPU.md). The errors of the plot are those on "
                    f"{figures_page.frames_text(first)}. [All methods on them](METHODS.md).") +
             "\n![RMSE against GPU time](images/pareto.png)\n")
 

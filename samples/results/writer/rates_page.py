@@ -2,8 +2,8 @@
 from markdown_text import number, table
 from rate_entries import RESAMPLED_FRAMES, TAKE_SPARSE, rays
 
-COLUMNS = ("walr", "walr:fast", "walr_paper", "walr_paper:robust", "flr", "bmfr", "svgf", "joint_bilateral", "accumulate", "none", "plain")
-HEADINGS = {"none": "input", "walr:fast": "fast", "plain": "plain alternative"}
+COLUMNS = ("walr", "walr_paper", "walr_paper:robust", "flr", "bmfr", "svgf", "joint_bilateral", "accumulate", "none", "plain")
+HEADINGS = {"none": "input", "plain": "plain alternative"}
 RESAMPLED = "1, resampled"
 LEAST_LEAD = 0.02
 """A method is listed as ahead of `walr` if its error is smaller by at least this share."""
@@ -14,8 +14,7 @@ Written by `samples/results/write.py` from `data/rates.json`. Measured by `sampl
 The same frames of 384 x 216 pixels, jittered, with ever more rays of indirect light per pixel; one ray is one path. Below 1 the light
 is sparse (`walr render --light-rate`), and only methods that take sparse light are there. RMSE after the tone map x / (1 + x), free of
 the references' noise, over three frames in half of the squares of 64 x 64 pixels; references have 128 samples per pixel over its area.
-Eight frames of history come before the judged ones. Method settings are the defaults at every rate; `fast` is a preset of `walr`, the
-same as its default at sparse light.
+Eight frames of history come before the judged ones. Method settings are the defaults at every rate.
 
 * **input**: the noisy frames; **accumulate**: temporal accumulation alone.
 * **plain alternative**: trace at a half or a third of the size on each side, denoise there with `walr`, and interpolate by depth and
