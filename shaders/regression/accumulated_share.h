@@ -9,13 +9,13 @@ namespace walr {
 
 // Of residual_statistics.comp.
 struct ResidualStatisticsConstants {
-  int tileOffset;        // Pixels of the first tile that lie before the image, per axis.
-  float kept;            // Share of the sums that is left after a frame.
-  float keptQuiet;       // The same where tiles are quiet.
-  float maxHistory;      // Frames: the longest history of accumulation.
-  float innovationGain;  // History shrinks by its length x this x (slope of innovations + innovationBias).
-  float innovationBias;  // Minus the slope at which history stays as long as it is.
-  float residualGain;    // Factor of the square of what the fits miss, for which it is measured too small.
+  int tileOffset;          // Pixels of the first tile that lie before the image, per axis.
+  float kept;              // Share of the sums that is left after a frame.
+  float keptQuiet;         // The same where tiles are quiet.
+  float maxHistory;        // Frames: the longest history of accumulation.
+  float innovationGain;    // History shrinks by its length x this x (slope of innovations + innovationBias).
+  float innovationBias;    // Minus the slope at which history stays as long as it is.
+  float residualGain;      // Factor of the square of what the fits miss, for which it is measured too small.
   float residualEdgeGain;  // The same for means over pixels beside an edge.
   float quietShare;        // Share of accumulated light below which a tile is quiet.
   // Share of accumulated light from which anti-aliasing shortens its history.

@@ -16,8 +16,8 @@ const float kFireflyWitnesses = 3.0f;
 const float kFireflyRoom = 2.0f;
 
 struct AntilagConstants {
-  float scoreLow;   // Score up to which history counts in full, standard errors.
-  float scoreHigh;  // Score from which history does not count, standard errors.
+  float scoreLow;    // Score up to which history counts in full, standard errors.
+  float scoreHigh;   // Score from which history does not count, standard errors.
   float mostSquare;  // Square of the brightest sample, in units of the mean square of those around it; 0: no bound.
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "tests/passes/reference/moments.h"
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/storage.h"
+#include "tests/passes/residual_light.h"
 #include "tests/passes/shaders.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
@@ -24,73 +24,6 @@ namespace walr::test {
 namespace {
 
 using reference::Image;
-
-constexpr glm::ivec2 kSize(61, 43);  // Not a multiple of the tiles.
-constexpr std::uint32_t kBlock = 4;
-constexpr int kTile = 8;    // Pixels per axis: two blocks.
-constexpr int kBefore = 2;  // Pixels of the first tile before the image: half a block.
-constexpr double kSamples = 8.0;
-
-double luminanceOf(const glm::dvec4& colour) {
-  return reference::luminance(glm::dvec3(colour));
-}
-
-/// The light that a filter reads: this frame's, and its mean with a history of kSamples - 1 frames.
-struct Light {
-  Image<glm::dvec4> truth{kSize};
-  Image<glm::dvec4> lighting{kSize};
-  Image<glm::dvec4> mean{kSize};
-};
-
-/// Light with stripes of two pixels that no guide shows, and with noise.
-/// @param stripes difference of the stripes from their mean, over this mean
-/// @param noise   standard deviation of one sample over its mean
-Light stripedLight(double stripes, double noise) {
-  std::mt19937 random(7);
-  // A gamma distribution has this relative deviation at the shape 1 / noise^2; the sum of n samples is n times the
-  // shape.
-  const auto meanOf = [&](double samples) {
-    if (noise == 0.0) return 1.0;
-    const double shape = samples / (noise * noise);
-    return std::gamma_distribution<double>(shape, 1.0 / shape)(random);
-  };
-  Light light;
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const double truth = 1.0 + stripes * (p.x / 2 % 2 == 0 ? 1.0 : -1.0);
-    const double y = reference::roundToHalf(truth * meanOf(1.0));
-    const double h = truth * meanOf(kSamples - 1.0);
-    const double m = reference::roundToHalf(h + (y - h) / kSamples);
-    light.truth[p] = glm::dvec4(glm::dvec3(truth), 1.0);
-    light.lighting[p] = glm::dvec4(glm::dvec3(y), 1.0);
-    light.mean[p] = glm::dvec4(glm::dvec3(m), kSamples);
-  });
-  return light;
-}
-
-/// The same with noise that light and history share, of standard deviation .55 of the light.
-Light withSharedNoise(Light light) {
-  constexpr double kShape = 1.0 / (0.55 * 0.55);
-  std::mt19937 random(11);
-  std::gamma_distribution<double> factor(kShape, 1.0 / kShape);
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const double shared = factor(random);
-    for (Image<glm::dvec4>* image : {&light.lighting, &light.mean}) {
-      for (int c = 0; c < 3; ++c) (*image)[p][c] = reference::roundToHalf(shared * (*image)[p][c]);
-    }
-  });
-  return light;
-}
-
-/// Light and history that differ from their mean in patterns whose product is 0 in the mean, as noise does.
-Light unrelatedLight() {
-  Light light;
-  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    const double y = p.x % 2 == 0 ? 1.9 : 0.1, h = p.y % 2 == 0 ? 1.7 : 0.3;
-    light.lighting[p] = glm::dvec4(glm::dvec3(y), 1.0);
-    light.mean[p] = glm::dvec4(glm::dvec3(h + (y - h) / kSamples), kSamples);
-  });
-  return light;
-}
 
 class FilterOf {
  public:
@@ -109,12 +42,12 @@ class FilterOf {
             },
             true) {}
 
-  Image<glm::dvec4> filter(const Light& light, std::uint32_t frameIndex = 0) {
+  Image<glm::dvec4> filter(const ResidualLight& light, std::uint32_t frameIndex = 0) {
     frame_.constants.frameIndex = frameIndex;
     return run_.run(frame_, guides_, {light.mean, light.lighting});
   }
   /// The result once the statistics are those of this light.
-  Image<glm::dvec4> settled(const Light& light) {
+  Image<glm::dvec4> settled(const ResidualLight& light) {
     static_cast<void>(filter(light));
     return filter(light);
   }
@@ -184,7 +117,7 @@ double bestShare(const Level& weighed, double trust) {
 /// statistics are those of earlier frames that all had this light and this prediction, unless others are given.
 class ExpectedResult {
  public:
-  ExpectedResult(const FilterOf& filter, const Light& light, const Image<glm::dvec4>& predicted)
+  ExpectedResult(const FilterOf& filter, const ResidualLight& light, const Image<glm::dvec4>& predicted)
       : guides_(filter.guides()), constants_(filter.constants()) {
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       const double y = luminanceOf(light.lighting[p]), m = luminanceOf(light.mean[p]), x = luminanceOf(predicted[p]);
@@ -426,7 +359,7 @@ double rmsError(const Image<glm::dvec4>& image, const Image<glm::dvec4>& truth) 
 class AccumulatedShare : public fg::test::GpuTest {
  protected:
   /// @param partly whether tiles are to be trusted in part
-  void expectAgreement(const Light& light, const Scene& scene, bool hasEdges, bool partly) const {
+  void expectAgreement(const ResidualLight& light, const Scene& scene, bool hasEdges, bool partly) const {
     const Image<glm::dvec4> predicted = FilterOf(device(), scene, false).filter(light);
     FilterOf filter(device(), scene, true);
     const ExpectedResult expected(filter, light, predicted);
@@ -457,7 +390,7 @@ class AccumulatedShare : public fg::test::GpuTest {
 };
 
 TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
-  const Light light = stripedLight(0.5, 1.0);
+  const ResidualLight light = stripedLight(0.5, 1.0);
   for (const auto& [scene, hasEdges] : {std::pair{flatWall(), false}, std::pair{thinBars(), true}}) {
     expectAgreement(light, scene, hasEdges, false);
     expectAgreement(withSharedNoise(light), scene, hasEdges, true);
@@ -466,13 +399,13 @@ TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
 
 // Light that comes to have detail while its tiles are quiet. Few of them measure it in each frame, until all wake.
 TEST_F(AccumulatedShare, QuietTilesTakePartInTurn) {
-  const Light unrelated = unrelatedLight(), stripes = stripedLight(0.17, 0.5);
+  const ResidualLight unrelated = unrelatedLight(), stripes = stripedLight(0.17, 0.5);
   FilterOf fits(device(), flatWall(), false), filter(device(), flatWall(), true);
   MeasuredFrames measured;
   int quietFrames = 0, awakeFrames = 0;
   for (std::uint32_t i = 0; i < 10; ++i) {
     SCOPED_TRACE("frame " + std::to_string(i));
-    const Light& light = i < 2 ? unrelated : stripes;
+    const ResidualLight& light = i < 2 ? unrelated : stripes;
     const Image<glm::dvec4> predicted = fits.filter(light, i), actual = filter.filter(light, i);
     const ExpectedResult expected(fits, light, predicted);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -513,7 +446,7 @@ TEST_F(AccumulatedShare, ShortensTheHistoryOfAntialiasing) {
   for (const double stripes : {0.15, 0.2, 0.5}) {
     for (const Scene& scene : {flatWall(), thinBars()}) {
       SCOPED_TRACE(stripes);
-      const Light light = stripedLight(stripes, 1.0);
+      const ResidualLight light = stripedLight(stripes, 1.0);
       FilterOf fits(device(), scene, false);
       const ExpectedResult expected(fits, light, fits.filter(light));
       const reference::HostFrame frame = renderStill(scene, kSize);
@@ -534,8 +467,8 @@ TEST_F(AccumulatedShare, ShortensTheHistoryOfAntialiasing) {
 // A pixel whose surface has just appeared has no history that could agree with its light, but statistics of the frame
 // before. Its neighbours have just appeared, too, and their mean counts.
 TEST_F(AccumulatedShare, TakesMeansOfPixelsWithoutHistory) {
-  const Light light = stripedLight(0.5, 1.0);
-  Light appearing = light;
+  const ResidualLight light = stripedLight(0.5, 1.0);
+  ResidualLight appearing = light;
   constexpr int kAppearing = 27;  // Columns of pixels.
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     if (p.x < kAppearing) appearing.mean[p].a = 1.0;
@@ -560,7 +493,7 @@ TEST_F(AccumulatedShare, TakesMeansOfPixelsWithoutHistory) {
 }
 
 TEST_F(AccumulatedShare, IsWholeWhereNothingIsNoise) {
-  const Light light = stripedLight(0.5, 0.0);
+  const ResidualLight light = stripedLight(0.5, 0.0);
   FilterOf filter(device(), flatWall(), true);
   const Image<glm::dvec4> result = filter.settled(light);
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
@@ -570,7 +503,7 @@ TEST_F(AccumulatedShare, IsWholeWhereNothingIsNoise) {
 }
 
 TEST_F(AccumulatedShare, ErrsLessThanPredictionAndMeanWhereBothErr) {
-  const Light light = stripedLight(0.3, 1.0);
+  const ResidualLight light = stripedLight(0.3, 1.0);
   FilterOf filter(device(), flatWall(), true);
   const double predicted = rmsError(filter.filter(light), light.truth);
   const double mixed = rmsError(filter.filter(light), light.truth);
@@ -585,7 +518,7 @@ TEST_F(AccumulatedShare, ErrsLessThanPredictionAndMeanWhereBothErr) {
 
 TEST_F(AccumulatedShare, IsNothingWhereOnlyNoiseIsLeft) {
   for (const double noise : {0.5, 3.0}) {
-    const Light light = stripedLight(0.0, noise);
+    const ResidualLight light = stripedLight(0.0, noise);
     FilterOf filter(device(), flatWall(), true);
     const double predicted = rmsError(filter.filter(light), light.truth);
     const double mixed = rmsError(filter.filter(light), light.truth);
@@ -598,7 +531,7 @@ TEST_F(AccumulatedShare, IsNothingWhereOnlyNoiseIsLeft) {
 
 // As resampled light has it (ReSTIR): light and history have the same noise, which differs from pixel to pixel.
 TEST_F(AccumulatedShare, IsNothingWhereLightAndHistoryShareTheirNoise) {
-  Light light = stripedLight(0.0, 1.0);
+  ResidualLight light = stripedLight(0.0, 1.0);
   light.mean = light.lighting;
   reference::forEachPixel(kSize, [&](glm::ivec2 p) { light.mean[p].a = kSamples; });
   FilterOf filter(device(), flatWall(), true);
@@ -613,7 +546,7 @@ TEST_F(AccumulatedShare, IsNothingWhereLightAndHistoryShareTheirNoise) {
 TEST_F(AccumulatedShare, StaysFiniteWithBrokenAndExtremeLight) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double scale : {0.0, 6e-8, 30000.0}) {
-    Light light = stripedLight(0.5, 1.0);
+    ResidualLight light = stripedLight(0.5, 1.0);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       for (int c = 0; c < 3; ++c) {
         light.lighting[p][c] = p.x % 7 == 3 ? kNan : std::min(scale * light.lighting[p][c], 65504.0);

@@ -160,7 +160,8 @@ TEST_F(ManySamples, HistoryIsShortWhereItBlurs) {
 
 TEST_F(ManySamples, HistoryIsLongWhereThereIsOnlyNoise) {
   const auto frames = walk(1, smoothLight);
-  // `AccumulatedShareSettings::innovationBias` lets noise shorten history by 1 / 1.28. This raises the error by its root, 1.13.
+  // `AccumulatedShareSettings::innovationBias` lets noise shorten history by 1 / 1.28. This raises the error by its
+  // root, 1.13.
   EXPECT_LT(lastError(frames, standard()), 1.13 * lastError(frames, withoutShare()));
 }
 

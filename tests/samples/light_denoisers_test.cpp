@@ -111,18 +111,19 @@ TEST_P(LightDenoisersTest, BothLightsAreThoseOfDenoisersOfTheirOwn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Methods, LightDenoisersTest,
-    testing::Values(Choice{"walr"}, Choice{"walr", {}, {}, "blocks.residual", "off"},
-                    Choice{"walr", {}, {}, "spatial-only", "on"}, Choice{"walr", {}, {}, "antialiasing.enabled", "off"},
-                    Choice{"walr", {}, {}, "accumulation.storage", "half"},
-                    Choice{"walr", {}, {}, "antialiasing.object-ids", "on"},
-                    Choice{"walr_paper", "robust", "robust", "accumulation.dilate-motion", "on"},
-                    Choice{"walr_paper", "robust", "robust", "accumulation.rejection", "depth"},
-                    Choice{"walr_paper", "paper", "paper"},
-                    Choice{"walr_paper", "robust", "robust"}, Choice{"refwlr", "robust", "robust"},
-                    Choice{"bmfr", "tuned", "paper"}, Choice{"svgf", "tuned", "paper"}, Choice{"flr"}, Choice{"flnr"},
-                    Choice{"joint_bilateral"}, Choice{"accumulate"}, Choice{"none"}));
+INSTANTIATE_TEST_SUITE_P(Methods, LightDenoisersTest,
+                         testing::Values(Choice{"walr"}, Choice{"walr", {}, {}, "blocks.residual", "off"},
+                                         Choice{"walr", {}, {}, "spatial-only", "on"},
+                                         Choice{"walr", {}, {}, "antialiasing.enabled", "off"},
+                                         Choice{"walr", {}, {}, "accumulation.storage", "half"},
+                                         Choice{"walr", {}, {}, "antialiasing.object-ids", "on"},
+                                         Choice{"walr_paper", "robust", "robust", "accumulation.dilate-motion", "on"},
+                                         Choice{"walr_paper", "robust", "robust", "accumulation.rejection", "depth"},
+                                         Choice{"walr_paper", "paper", "paper"},
+                                         Choice{"walr_paper", "robust", "robust"}, Choice{"refwlr", "robust", "robust"},
+                                         Choice{"bmfr", "tuned", "paper"}, Choice{"svgf", "tuned", "paper"},
+                                         Choice{"flr"}, Choice{"flnr"}, Choice{"joint_bilateral"}, Choice{"accumulate"},
+                                         Choice{"none"}));
 
 // One light has another test of its history, so that it finds the taps by itself.
 TEST(LightDenoisers, LightsMayTestTheirHistoryInOtherWays) {

@@ -26,7 +26,7 @@
 
 #include <vulkan/vulkan_core.h>
 
-/* With Windows' shared library, a host may define WALR_SHARED; it saves each call a jump. walr::shared of CMake does so. */
+/* With Windows' shared library, a host may define WALR_SHARED; it saves each call a jump. CMake's walr::shared does. */
 #if defined(_WIN32) && defined(WALR_SHARED)
 #define WALR_API __declspec(dllimport)
 #elif defined(__GNUC__) && !defined(_WIN32)
