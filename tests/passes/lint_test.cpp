@@ -113,7 +113,6 @@ std::vector<Case> cases() {
   const auto scaledMotion = [](glm::dvec3 scale) {
     return eachPixel([scale](HostFrame& f, glm::ivec2 p) { f.motion[p] *= scale; });
   };
-  const glm::dvec2 size(kSize);
   const auto jitterMatrices = [](HostInput& h) {
     const glm::vec2 clip = glm::vec2(2.0F, -2.0F) / glm::vec2(kSize);
     for (int axis = 0; axis < 2; ++axis) {
