@@ -385,12 +385,13 @@ def refused(host, screen):
         window.hands.click(*window.at(250, 700))
         window.must_show(before, "the same picture after a click at a grey method")
 
-        antilag_low, antilag_radius = 480, 457
+        antilag_low, fireflies = 342, 388
         window.hands.click(*window.at(150, antilag_low))
         wait_for(lambda: explained(window), "the reason why antilag-low may not be above antilag-high")
+        window.hands.move(*window.at(250, 640))  # The setting's description would lie over the picture.
         window.must_show(before, "the same picture after a setting that is refused")
         write_png(host.screenshot, screen.rows())
-        window.hands.click(*window.at(200, antilag_radius))
+        window.hands.click(*window.at(200, fireflies))
         wait_for(lambda: not explained(window), "the reason to vanish after another setting")
     again = subprocess.run(host.command("0-3", ["--light-rate", "1/4", "--method", "svgf"]), capture_output=True, text=True,
                            env={**os.environ, "DISPLAY": screen.display}, timeout=PATIENCE, check=False)

@@ -174,6 +174,7 @@ static uint32_t texel_size_of(VkFormat format) {
       return 2;
     case VK_FORMAT_R32_SFLOAT:
     case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_R16G16_SFLOAT:
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
       return 4;
     case VK_FORMAT_R16G16B16A16_SFLOAT:
