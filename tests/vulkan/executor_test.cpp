@@ -237,6 +237,26 @@ TEST_F(ExecutorTest, HostMayAlternateBetweenImages) {
   for (const vk::StagedImage& image : images) run.executor().forget(image.external());
 }
 
+// Vulkan may give an image the handle of one that is gone. A host that forgets the old one late keeps the new one.
+TEST_F(ExecutorTest, ForgettingAnImageKeepsAnotherOneWithItsHandle) {
+  Graph graph;
+  const Texture out = chain(graph, 0, 2);
+  GraphRun run(device(), graph);
+  const vk::StagedImage image(context(), kTexture, run.executor().usage(out), vk::StagedImage::Direction::Readback,
+                              kFramesInFlight, "again");
+  const auto withIdentity = [&](std::uint64_t identity) {
+    vk::ExternalImage external = image.external();
+    external.identity = identity;
+    return external;
+  };
+  run.executor().bind(out, withIdentity(2));
+  run.executor().forget(withIdentity(1));
+  vk::FrameQueue queue(context(), device().queue(), kFramesInFlight);
+  EXPECT_EQ(frameInto(image, run.executor(), queue), filled(2));
+  run.executor().forget(withIdentity(2));
+  EXPECT_THROW(static_cast<void>(frameInto(image, run.executor(), queue)), vk::Error);
+}
+
 TEST_F(ExecutorTest, AnImportMayHaveMoreLevelsAndLayersThanWereDeclared) {
   Graph graph;
   const Texture out = chain(graph, 0, 2);
