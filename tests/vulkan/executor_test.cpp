@@ -305,6 +305,26 @@ TEST_F(ExecutorTest, TimestampsNameEveryPass) {
   EXPECT_LT(sum, 10'000.0) << "four passes over 19 x 13 texels cannot take ten seconds";
 }
 
+TEST_F(ExecutorTest, APassLastsFromItsTimestampToTheNext) {
+  vk::DeviceContext tampered = context();
+  tampered.functions.vkGetQueryPoolResults = [](VkDevice /*device*/, VkQueryPool /*pool*/, std::uint32_t /*first*/,
+                                                std::uint32_t count, std::size_t /*bytes*/, void* data,
+                                                VkDeviceSize /*stride*/, VkQueryResultFlags /*flags*/) {
+    for (std::uint64_t i = 0; i < count; ++i) static_cast<std::uint64_t*>(data)[i] = 1000 * i * i;
+    return VK_SUCCESS;
+  };
+  Graph graph;
+  chain(graph, 0, 3);
+  GraphRun run({tampered, device().queue()}, graph, {.timestamps = true});
+  run.frame();
+  const auto times = run.executor().passTimes(0);
+  ASSERT_EQ(times.size(), 4u);
+  // Differences of squares are odd numbers.
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    EXPECT_DOUBLE_EQ(times[i].milliseconds / times[0].milliseconds, 2.0 * double(i) + 1.0) << times[i].name;
+  }
+}
+
 /// Names of the labels that were begun, and the number of those that were ended.
 struct LabelLog {
   std::vector<std::string> begun;
