@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -95,6 +96,19 @@ void checkProjection(const glm::mat4& projection, bool orthographic) {
         "of the view matrix and column z of the projection");
   }
   checkAxes(p, glm::dvec2(p[3][0], p[3][1]), kEye, reject);
+}
+
+bool sameView(const glm::mat4& a, const glm::mat4& b) {
+  constexpr float kRoundings = 16.0F;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      const float x = a[column][row];
+      const float y = b[column][row];
+      const float scale = std::max({1.0F, std::abs(x), std::abs(y)});
+      if (std::abs(x - y) > kRoundings * std::numeric_limits<float>::epsilon() * scale) return false;
+    }
+  }
+  return true;
 }
 
 void checkOrigin(const glm::dvec3& origin) {

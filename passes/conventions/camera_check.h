@@ -17,6 +17,9 @@ void checkProjection(const glm::mat4& projection, bool orthographic = false);
 /// @throws std::invalid_argument naming the most likely cause: transposed, mirrored (left-handed), scaled, sheared
 void checkView(const glm::mat4& view);
 
+/// Whether two view matrices are the same but for the rounding errors of two ways to compute one matrix.
+bool sameView(const glm::mat4& a, const glm::mat4& b);
+
 /// Refuse an origin that is not finite, or so far away that doubles do not hold it to the precision that floats have
 /// near the camera.
 /// @throws std::invalid_argument

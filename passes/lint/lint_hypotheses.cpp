@@ -9,6 +9,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
+#include "passes/conventions/camera_check.h"
+
 namespace walr {
 namespace {
 
@@ -257,17 +259,6 @@ std::vector<LintHypothesis> makeHypotheses() {
 }
 
 }  // namespace
-
-bool sameView(const glm::dmat4& a, const glm::dmat4& b) {
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      const double x = a[column][row];
-      const double y = b[column][row];
-      if (std::abs(x - y) > 2e-6 * std::max({1.0, std::abs(x), std::abs(y)})) return false;
-    }
-  }
-  return true;
-}
 
 const std::vector<LintHypothesis>& lintHypotheses() {
   static const std::vector<LintHypothesis> kAll = makeHypotheses();

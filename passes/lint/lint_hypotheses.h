@@ -36,7 +36,4 @@ struct LintHypothesis {
 /// All mistakes. Of two that explain the same, the first one is likelier.
 const std::vector<LintHypothesis>& lintHypotheses();
 
-/// Whether two view matrices are the same but for rounding.
-bool sameView(const glm::dmat4& a, const glm::dmat4& b);
-
 }  // namespace walr

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "passes/conventions/camera_check.h"
+
 namespace walr {
 namespace {
 

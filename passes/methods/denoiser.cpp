@@ -53,9 +53,8 @@ constexpr std::string_view kFormerPresets{};
 template <>
 constexpr std::string_view kFormerPresets<WalrSettings> =
     "; of the former presets, fast, blocks, one-sample and many-samples are part of standard, which takes in "
-    "accumulated "
-    "light where that gains and spends little time on it elsewhere, and robust and paper are presets of the method "
-    "walr_paper";
+    "accumulated light where that gains and spends little time on it elsewhere, and robust and paper are presets of "
+    "the method walr_paper";
 
 /// The scene that satisfies both descriptions.
 SceneDescription common(const SceneDescription& a, const SceneDescription& b) {

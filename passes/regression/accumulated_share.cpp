@@ -32,8 +32,8 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
   const fg::History statistics = graph->history("residual statistics", ofBoth);
   const fg::History agreement = graph->history("residual agreement", ofTiles);
   const fg::History innovation = graph->history("innovation", {VK_FORMAT_R16_SFLOAT, pixels});
+  // Without a history that somebody steers, history may be as long as packed light can count.
   const SteeredHistory history =
-      // Nobody reads it. Without it, history may have any length up to the longest that packed light holds.
       inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples);
 
   apply.specialize("kPackedMean", packed)

@@ -176,7 +176,8 @@ std::span<const ViewInfo> accumulationViews(bool withAntilag) {
        "that passes; 1 where history is held back",
        {{"held-back-samples", "X"}, {"held-back-light", "Y"}, {"held-back-history", "Z"}}},
   };
-  return std::span(kViews).first(withAntilag ? kViews.size() : kViews.size() - 2);
+  constexpr std::size_t kOfAntilag = 2;  // The last ones.
+  return std::span(kViews).first(withAntilag ? kViews.size() : kViews.size() - kOfAntilag);
 }
 
 AccumulatedLight addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
-#include <glm/gtc/type_ptr.hpp>
-
+#include "passes/conventions/camera_check.h"
 #include "passes/conventions/light_pattern.h"
 #include "samples/errors.h"
 #include "samples/image/exr_limits.h"
@@ -55,20 +53,6 @@ void addFile(FilesByNumber& files, int number, const fs::path& path) {
     throw InputError("frame " + std::to_string(number) + " exists twice: " + first.string() + " and " +
                      second.string() + ". Keep one sequence per folder.");
   }
-}
-
-/// Whether two matrices differ by more than the rounding errors of two ways to compute one matrix.
-bool differs(const glm::mat4& a, const glm::mat4& b) {
-  for (int i = 0; i < 16; ++i) {
-    const float x = glm::value_ptr(a)[i];
-    const float y = glm::value_ptr(b)[i];
-    constexpr float kRoundings = 16.0F;
-    const float scale = std::max({1.0F, std::abs(x), std::abs(y)});
-    if (std::abs(x - y) > kRoundings * std::numeric_limits<float>::epsilon() * scale) {
-      return true;
-    }
-  }
-  return false;
 }
 
 std::string text(const PixelRect& rect) {
@@ -274,7 +258,7 @@ void Sequence::markCuts() {
   }
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     Entry& entry = entries_[i];
-    entry.camera.cut = i > 0 && (entry.camera.cut || differs(entry.camera.previousView, entries_[i - 1].camera.view));
+    entry.camera.cut = i > 0 && (entry.camera.cut || !sameView(entry.camera.previousView, entries_[i - 1].camera.view));
     entry.resetHistory = i == 0 || entry.camera.cut;
   }
 }

@@ -15,8 +15,6 @@
 
 namespace walr {
 
-using test::kUsage;
-
 inline Image readIndirect(const std::filesystem::path& file, const std::string& plane = "Indirect") {
   ExrReader reader(file);
   Image image(reader.width(), reader.height(), 3);
