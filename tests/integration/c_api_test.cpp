@@ -90,6 +90,24 @@ TEST_F(CApi, ResetDropsTheHistoryAndNewSettingsKeepIt) {
             both);
 }
 
+TEST_F(CApi, AResetLastsOneFrame) {
+  const FrameDescription camera = cameraAt({}, {}, kSize, 0);
+  const HostFrame first = renderFrame(flatWall(), camera, kSize);
+  const HostFrame second = renderFrame(flatWall(), cameraAt({}, {}, kSize, 7), kSize);
+  const auto lastOf = [&](HostedRun& run) {
+    run.fill(second);
+    run.frame(camera);
+    run.fill(first);
+    return run.frame(camera);
+  };
+  HostedRun fresh(device(), "accumulate", kSize);
+  HostedRun resetLater(device(), "accumulate", kSize);
+  resetLater.fill(first);
+  resetLater.frame(camera);
+  require(walr_reset_history(resetLater.denoiser()));
+  EXPECT_EQ(lastOf(resetLater), lastOf(fresh));
+}
+
 TEST_F(CApi, AcceptsOtherFormatsAndRemembersTheCamera) {
   HostedRun usual(device(), "walr", kSize);
   HostedRun other(device(), "walr", kSize,

@@ -80,10 +80,11 @@ float exposureOf(const Host& host, std::uint32_t frame) {
   return host.preExposed ? std::exp2(float(frame) - 1.0F) : 1.0F;
 }
 
-/// The scene's rotation from view to world, so that the two spaces differ: an eighth of a turn about two axes.
+/// The scene's rotation from view to world: three eighths of a turn about one axis and one about another. Normals
+/// towards the camera then point down the world's z axis, where octahedral normals are folded.
 glm::dmat3 worldFromView() {
   const double c = std::sqrt(0.5);
-  return glm::dmat3(c, 0, -c, 0, 1, 0, c, 0, c) * glm::dmat3(1, 0, 0, 0, c, c, 0, -c, c);
+  return glm::dmat3(-c, 0, -c, 0, 1, 0, c, 0, -c) * glm::dmat3(1, 0, 0, 0, c, c, 0, -c, c);
 }
 
 constexpr float kNear = 0.5F;
@@ -245,6 +246,7 @@ std::vector<Host> hosts() {
       {.normals = WALR_NORMALS_UNSIGNED},
       {.normals = WALR_NORMALS_OCTAHEDRAL_SIGNED},
       {.normals = WALR_NORMALS_OCTAHEDRAL_UNSIGNED},
+      {.normals = WALR_NORMALS_OCTAHEDRAL_SIGNED, .world = true},
       {.world = true},
       {.pictures = true},
       {.motionForward = true},

@@ -74,6 +74,28 @@ TEST_F(History, LengthCountsFrames) {
   }
 }
 
+// `walr` accumulates a texel of light for a group of pixels, which all get its length.
+TEST_F(History, LengthOfSparseLightIsThatOfThePixelsGroup) {
+  const glm::ivec2 group(3, 2);
+  HostedRun::Options given = options(VK_FORMAT_UNDEFINED);
+  for (int axis = 0; axis < 2; ++axis) given.conventions.light_group[axis] = static_cast<std::uint32_t>(group[axis]);
+  HostedRun run(device(), "walr", kSize, given);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const HostFrame frame = frameAt(i);
+    run.fill(frame);
+    reference::Image<glm::dvec3> light((kSize + group - 1) / group);
+    forEachPixel(light.size(), [&](glm::ivec2 p) { light[p] = frame.lighting[p * group]; });
+    run.fill("lighting", texelBytes(encodeHalves(light)));
+    (void)run.frame(cameraOf(i));
+    HostFrame ofGroups = frame;
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      ofGroups.depth[p] = frame.depth[p / group * group];
+      ofGroups.albedo[p] = frame.albedo[p / group * group];
+    });
+    expectLengths(run, ofGroups, [&](glm::ivec2) { return float(i) + 1.0F; });
+  }
+}
+
 TEST_F(History, ConfidenceScalesTheLongestHistory) {
   for (const char* method : kMethods) {
     SCOPED_TRACE(method);

@@ -149,7 +149,10 @@ void HostedRun::makeImages(glm::ivec2 size) {
     WalrImageRequirements needs{};
     needs.struct_size = sizeof(needs);
     require(walr_get_image_requirements(denoiser_, name, &needs));
-    if (glm::ivec2(needs.width, needs.height) != size) throw std::logic_error("requirements of another size");
+    // Sparse light has a texel for a group of pixels.
+    const bool sparse = name == kImages.front() && glm::all(glm::lessThan(glm::ivec2(needs.width, needs.height), size));
+    if (!sparse && glm::ivec2(needs.width, needs.height) != size)
+      throw std::logic_error("requirements of another size");
     needs.width += static_cast<std::uint32_t>(margin_.x);
     needs.height += static_cast<std::uint32_t>(margin_.y);
     // An image that the denoiser does not use may be anything. It is given anyway.

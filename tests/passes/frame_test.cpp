@@ -54,6 +54,18 @@ TEST(FrameConstants, ARayProjectsToItsPixel) {
   }
 }
 
+TEST(FrameConstants, AZoomKeepsThePreviousFramesRays) {
+  FrameDescription frame = movingCamera();
+  frame.projection[0][0] *= 1.25F;
+  frame.projection[1][1] *= 1.25F;
+  const FrameConstants constants = frameConstants(frame, kExtent);
+  const glm::vec2 pixel(100.5F, 300.25F);
+  const glm::dvec2 projected =
+      project(frame.previousProjection, unproject(constants.previousRayFromPixel, pixel, 7.0F));
+  EXPECT_NEAR(projected.x, pixel.x, kPixelTolerance);
+  EXPECT_NEAR(projected.y, pixel.y, kPixelTolerance);
+}
+
 TEST(FrameConstants, ARayOfAnOrthographicCamerasStandInProjectsToItsPixel) {
   for (const float height : {0.01F, 3.0F, 3.3F, 700.0F}) {
     FrameDescription frame = movingCamera();

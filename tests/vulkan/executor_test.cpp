@@ -207,6 +207,27 @@ TEST_F(ExecutorTest, ImportWithoutImageIsRefusedByName) {
   EXPECT_THROW(executor.record(frame.commandBuffer, 2), std::out_of_range);
 }
 
+// Two frames in one command buffer, because synchronization validation looks at one command buffer at a time.
+TEST_F(ExecutorTest, AnUploadWaitsUntilThePreviousFrameHasRead) {
+  Graph graph;
+  const Texture in = graph.import("in", kTexture, vk::kUploaded);
+  graph.exported(add(graph, "add", in, importOutput(graph, "out"), 1), vk::kReadable);
+  // In the state in which it was read, so that no barrier follows the read.
+  graph.exported(in, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+  GraphRun run(device(), graph);
+  const vk::StagedImage image(context(), kTexture, run.executor().usage(in), vk::StagedImage::Direction::Upload,
+                              kFramesInFlight, "in");
+  run.executor().bind(in, image.external());
+  vk::FrameQueue queue(context(), device().queue());
+  const vk::Frame frame = queue.begin();
+  image.recordUpload(frame.commandBuffer, 0);
+  run.executor().record(frame.commandBuffer, frame.slot);
+  image.recordUpload(frame.commandBuffer, 1);
+  queue.submit(frame);
+  queue.waitAll();
+}
+
 /// The texels that a frame writes to a bound image of the host.
 std::vector<std::uint32_t> frameInto(const vk::StagedImage& image, vk::Executor& executor, vk::FrameQueue& queue) {
   const vk::Frame frame = queue.begin();
