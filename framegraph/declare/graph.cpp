@@ -122,6 +122,14 @@ PassBuilder& PassBuilder::constants(std::span<const std::byte> bytes) {
   return *this;
 }
 
+PassBuilder& PassBuilder::appendConstant(std::uint32_t value) {
+  if (auto* work = computeWork()) {
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    work->constants.insert(work->constants.end(), bytes.begin(), bytes.end());
+  }
+  return *this;
+}
+
 PassBuilder& PassBuilder::historyAge(const History& history, std::uint32_t offset) {
   if (auto* work = computeWork()) work->historyAges.push_back({history.index, offset});
   return *this;

@@ -243,6 +243,8 @@ class PassBuilder {
     return constants(std::as_bytes(std::span(&value, 1)));
   }
   PassBuilder& constants(std::span<const std::byte> bytes);
+  /// Append a number to the push constants.
+  PassBuilder& appendConstant(std::uint32_t value);
   /// Let the executor write the age of `history` at a byte offset of the push constants: the number of frames, 0 if
   /// there is no history.
   PassBuilder& historyAge(const History& history, std::uint32_t offset);

@@ -13,7 +13,7 @@ float falloff(float sigma) {
   return 1.0F / (2.0F * sigma * sigma);
 }
 
-/// In the order of `kView` of joint_bilateral.comp.
+/// In the order of `view` of joint_bilateral.comp.
 const std::vector<ViewInfo>& filterViews() {
   static const std::vector<ViewInfo> kViews{
       {"weights",

@@ -43,7 +43,7 @@ fg::Texture colourTexture(StageGraph graph, fg::Texture like, std::string name) 
 
 constexpr const char* kVariancePass = "svgf variance";
 
-/// In the order of `kView` of svgf_variance.comp.
+/// In the order of `view` of svgf_variance.comp.
 const std::vector<ViewInfo>& varianceViews() {
   static const std::vector<ViewInfo> kViews{
       {"deviation",

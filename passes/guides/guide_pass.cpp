@@ -32,7 +32,7 @@ GuideTexture guideTexture(StageGraph graph, const std::string& name, const fg::T
   return {history.current, history.previous};
 }
 
-/// In the order of `kView` of prepare_guides.comp.
+/// In the order of `view` of prepare_guides.comp.
 const std::vector<ViewInfo>& guideViews() {
   static const std::vector<ViewInfo> kViews{
       {"no-surface",

@@ -130,7 +130,7 @@ fg::Buffer addCoarseFit(const BlockGrid& grid, const BlockAverages& averages, fg
   return writeFits(grid, growth, grid.cells, sizeof(StoredFit), "coarse fits");
 }
 
-/// In the order of `kView` of block_atrous.comp. Views that the regression over pixels also has share its names.
+/// In the order of `view` of block_atrous.comp. Views that the regression over pixels also has share its names.
 const std::vector<ViewInfo>& blockIterationViews() {
   static const std::vector<ViewInfo> kViews{
       {"edges",
@@ -158,7 +158,7 @@ const std::vector<ViewInfo>& blockIterationViews() {
   return kViews;
 }
 
-/// In the order of `kView` of block_apply.comp.
+/// In the order of `view` of block_apply.comp.
 const std::vector<ViewInfo>& reconstructionViews() {
   static const std::vector<ViewInfo> kViews{
       {"samples",

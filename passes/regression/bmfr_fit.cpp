@@ -13,7 +13,7 @@ namespace {
 /// hold rounding errors. The tolerance is well above those of single precision and well below the noise.
 constexpr float kRoundingTolerance = 1e-4F;
 
-/// In the order of `kView` of bmfr_fit.comp.
+/// In the order of `view` of bmfr_fit.comp.
 const std::vector<ViewInfo>& fitViews() {
   static const std::vector<ViewInfo> kViews{
       {"rank",

@@ -47,7 +47,7 @@ GuideChoice chosenGuides(bool occlusion, const LearnedGuides& learned) {
   return choiceOf(occlusion ? 5 : 4);
 }
 
-/// In the order of `kView` of flr_solve.comp. Names of what WALR's regression has, too, are the same.
+/// In the order of `view` of flr_solve.comp. Names of what WALR's regression has, too, are the same.
 const std::vector<ViewInfo>& solveViews() {
   static const std::vector<ViewInfo> kViews{
       {"pivots",
@@ -61,7 +61,7 @@ const std::vector<ViewInfo>& solveViews() {
   return kViews;
 }
 
-/// In the order of `kView` of flr_apply.comp.
+/// In the order of `view` of flr_apply.comp.
 const std::vector<ViewInfo>& applyViews() {
   static const std::vector<ViewInfo> kViews{
       {"clamped",

@@ -46,7 +46,7 @@ const fg::Shader& shaderFor(Role role, MomentStorage storage, bool first) {
   return first ? shaders::atrousFirstLast : shaders::atrousLast;
 }
 
-/// In the order of `kView` of atrous.comp.
+/// In the order of `view` of atrous.comp.
 const std::vector<ViewInfo>& pixelIterationViews() {
   static const std::vector<ViewInfo> kViews{
       {"edges",

@@ -39,7 +39,7 @@ void Inspection::offer(StageGraph graph, std::span<const ViewInfo> views, fg::Ex
     const std::string name = viewName(info, iteration);
     const auto write = [&](const std::string& passName, fg::Texture texture) {
       fg::PassBuilder pass = declare(passName);
-      pass.specialize("kView", i);
+      pass.appendConstant(i);
       return pass.store("outView", texture);
     };
     for (DebugView& view : views_) {

@@ -95,7 +95,7 @@ class Inspection {
   /// Declares the pass of a view: all but the view's number and texture.
   using DeclareView = std::function<fg::PassBuilder(const std::string& passName)>;
   /// Called by a stage: add a pass for each of its wanted views.
-  /// @param views   in the order of `kView` of the stage's shader, which writes `outView`
+  /// @param views   in the order of `view` of the stage's shader, which writes `outView`
   /// @param extent  of the inputs
   void offer(StageGraph graph, std::span<const ViewInfo> views, fg::Extent extent, const DeclareView& declare,
              StageIteration iteration = {});

@@ -59,7 +59,7 @@ struct TemporalAccumulationSettings {
   }
 };
 
-/// Views of every stage that accumulates lighting, in the order of `kView` of its shader.
+/// Views of every stage that accumulates lighting, in the order of `view` of its shader.
 /// @param withAntilag whether the stage has antilag, which has a view of its own
 std::span<const ViewInfo> accumulationViews(bool withAntilag);
 

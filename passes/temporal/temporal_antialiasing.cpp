@@ -13,7 +13,7 @@
 namespace walr {
 namespace {
 
-/// In the order of `kView` of temporal_antialiasing.comp.
+/// In the order of `view` of temporal_antialiasing.comp.
 const std::vector<ViewInfo>& antialiasingViews() {
   static const std::vector<ViewInfo> kViews{
       {"clip",

@@ -21,12 +21,16 @@ uniform utexture2D shadingNormal;
 uniform utexture2D geometricNormal;
 uniform texture2D lighting;
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
-layout(push_constant) uniform PushConstants { JointBilateralConstants constants; };
+layout(push_constant) uniform PushConstants {
+  JointBilateralConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 
 struct Surface {
   vec3 position;         // View space.
@@ -122,7 +126,7 @@ void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
 #ifdef VIEW
-  imageStore(outView, p, vec4(kView == 0u ? viewOf(p) : vec3(0.0), 1.0));
+  imageStore(outView, p, vec4(view == 0u ? viewOf(p) : vec3(0.0), 1.0));
 #else
   if (unpackDepth(texelFetch(depth, p, 0).x) == 0.0) {
     imageStore(outFiltered, p, vec4(passThroughLight(lighting, p), 1.0));

@@ -21,12 +21,16 @@ uniform texture2D colour;
 layout(constant_id = 0) const bool kSingleFrame = false;
 uniform texture2D moments;  // Mean luminance, its standard deviation, history length.
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outColour;
 #endif
-layout(push_constant) uniform PushConstants { SvgfFilterConstants constants; };
+layout(push_constant) uniform PushConstants {
+  SvgfFilterConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 
 #include "filters/svgf.glsl"
 
@@ -89,7 +93,7 @@ float deviationOf(ivec2 p, float z, Estimate e) {
 
 #ifdef VIEW
 vec3 viewOf(ivec2 p, float z) {
-  if (z == 0.0 || kView != 0u) return vec3(0.0);
+  if (z == 0.0 || view != 0u) return vec3(0.0);
   const Estimate e = estimateAt(p);
   return vec3(max(deviationOf(p, z, e), 0.0), isEstimatedAround(e), e.samples <= 0.0);
 }

@@ -14,10 +14,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #endif
-layout(push_constant) uniform PushConstants { PrepareGuidesConstants guideConstants; };
+layout(push_constant) uniform PushConstants {
+  PrepareGuidesConstants guideConstants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 #ifdef VIEW
 #include "guides/host_surface.glsl"
 #else
@@ -29,7 +33,7 @@ vec3 viewOf(ivec2 p) {
   const float z = texelFetch(hostDepth, p, 0).x;
   const vec3 n = texelFetch(normal, p, 0).xyz;
   const vec3 diffuse = albedoAt(p);
-  switch (kView) {
+  switch (view) {
     case 0u:
       if (!isSurfaceDepth(z, surfaceDepthEnd())) return vec3(1.0, 0.0, 0.0);
       if (!isUsable(dot(n, n))) return vec3(0.0, 1.0, 0.0);

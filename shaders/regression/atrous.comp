@@ -20,9 +20,6 @@ layout(constant_id = 1) const int kSpacing = 1;        // 3^t pixels.
 layout(constant_id = 2) const bool kTraceEdges = true;
 layout(constant_id = 3) const uint kReplacement = 1;   // TapReplacement: what replaces a tap behind an edge.
 layout(constant_id = 4) const bool kNormalFactor = true;  // Weights fall with the cosine between the planes' normals.
-#ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
-#endif
 #ifdef LAST
 layout(constant_id = 5) const bool kPivotFloor = false;      // Floor the pivots instead of adding a ridge.
 #else
@@ -47,7 +44,12 @@ layout(rgba16f) uniform writeonly image2D outFiltered;
 #else
 layout(r32ui) uniform writeonly uimage2D outDepth;
 #endif
-layout(push_constant) uniform PushConstants { AtrousConstants constants; };
+layout(push_constant) uniform PushConstants {
+  AtrousConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 
 #include "regression/edge_tracing.glsl"
 #if defined(FIRST) || defined(VIEW)
@@ -89,7 +91,7 @@ vec3 viewOf(ivec2 p, TraceSummary summary, Moments m) {
   const Factor factor = factorOf(m, kPivotFloor, constants.ridge, constants.noiseRidge);
   const Slopes slopes = slopesOf(m, factor);
   const vec3 colour = fitted(m, slopes, featuresAt(p));
-  switch (kView) {
+  switch (view) {
     case 0u: return vec3(summary.nearestEdge, summary.replaced, summary.lost);
     case 1u: return vec3(m.samples, relativeVariance(m), lightAt(p).a > 0.0 ? 0.0 : 1.0);
     case 2u: return vec3(factor.smallestPivot, factor.regularisation, factor.smallestPivot < factor.regularisation);

@@ -34,7 +34,6 @@ uniform utexture2D features;  // Shading normal and ambient occlusion.
 layout(std430) readonly buffer fineFits { StoredBlockFit blocks[]; };
 layout(std430) readonly buffer coarseFits { StoredFit cells[]; };
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 layout(constant_id = 21) const bool kPackedLight = false;
 uniform texture2D accumulated;
@@ -47,7 +46,12 @@ layout(r32ui) uniform writeonly uimage2D outFiltered;
 uniform texture2D passThrough;
 layout(rgba16f) uniform writeonly image2D outFiltered;
 #endif
-layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
+layout(push_constant) uniform PushConstants {
+  BlockRegressionConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 #include "regression/block_plane.glsl"
 #include "conventions/camera.glsl"
 #include "regression/coarse_share.glsl"
@@ -208,7 +212,7 @@ bool hasNoSample(ivec2 p) {
 // In the order of reconstructionViews() in passes/regression/block_regression.cpp, which describes each value.
 vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occlusion) {
   const bool usable = fine.weight > 0.0 || coarse.weight > 0.0;
-  switch (kView) {
+  switch (view) {
     case 0u: return vec3(meanSamples(fine), share, !usable);                                     // samples
     case 1u: return vec3(occlusion, fine.weight, fine.weight <= 0.0 && coarse.weight > 0.0);     // occlusion
     case 2u: return meanColour(fine, 1.0);                                                          // fine-fit
@@ -218,7 +222,7 @@ vec3 viewOf(ivec2 p, Prediction fine, Prediction coarse, float share, float occl
     case 16u: return vec3(meanSamples(fine) < kCoefficients, share > 0.5, hasNoSample(p));  // few-samples
   }
   // 6 to 10 are slope-x to slope-occlusion; 11 to 15 are coarse-slope-x to coarse-slope-occlusion.
-  return kView < 11u ? meanSlope(fine, kView - 6u) : meanSlope(coarse, kView - 11u);
+  return view < 11u ? meanSlope(fine, view - 6u) : meanSlope(coarse, view - 11u);
 }
 #endif
 

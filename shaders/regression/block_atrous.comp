@@ -18,10 +18,14 @@ layout(constant_id = 1) const int kSpacing = 1;    // 3^t blocks.
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D normal;
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #endif
-layout(push_constant) uniform PushConstants { BlockRegressionConstants constants; };
+layout(push_constant) uniform PushConstants {
+  BlockRegressionConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 #include "regression/block_fit.glsl"
 #define BLOCK_MOMENTS_IN
 #if defined(LAST)
@@ -107,7 +111,7 @@ vec3 pivotsOf(BlockMoments m) {
 }
 
 vec3 viewOf(TraceSummary summary, BlockMoments m) {
-  switch (kView) {
+  switch (view) {
     case 0u: return vec3(summary.nearestEdge, summary.lost, m.samples);
     case 1u: return pivotsOf(m);
     case 2u: return m.y;
@@ -119,7 +123,7 @@ vec3 viewOf(TraceSummary summary, BlockMoments m) {
     case 8u: return vec3(m.xx[triangleEntry(4, 0)], m.xx[triangleEntry(4, 1)], m.xx[triangleEntry(4, 2)]);
     case 9u: return vec3(m.xx[triangleEntry(3, 3)], m.xx[triangleEntry(4, 3)], m.xx[triangleEntry(4, 4)]);
   }
-  return m.yx[kView - 10u];
+  return m.yx[view - 10u];
 }
 #endif
 

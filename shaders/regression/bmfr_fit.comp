@@ -21,12 +21,16 @@ uniform texture2D lighting;
 uniform utexture2D depth;
 uniform utexture2D shadingNormal;
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outFitted;
 #endif
-layout(push_constant) uniform PushConstants { BmfrFitConstants constants; };
+layout(push_constant) uniform PushConstants {
+  BmfrFitConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 
 const uint kThreads = 256u;
 const int kRowsPerThread = 4;
@@ -181,7 +185,7 @@ float featuresLeftOut() {
 vec3 viewOf(Pixel pixel, Bounds bounds, float samples) {
   if (!pixel.surface) return vec3(0.0);
   const vec3 colour = synthesis(pixel, bounds);
-  switch (kView) {
+  switch (view) {
     case 0u: return vec3(featuresLeftOut(), samples, featuresLeftOut() > 0.0);
     case 1u: return vec3(notEqual(clampedRadiance(colour), colour));
     case 2u: return vec3(samples == 0.0, !pixel.sampled, !isFinite(colour));

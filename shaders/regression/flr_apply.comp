@@ -12,14 +12,18 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kUpsampling = 1u;  // FlrUpsampling.
 
-layout(push_constant) uniform PushConstants { FlrConstants constants; };
+layout(push_constant) uniform PushConstants {
+  FlrConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 #include "regression/flr.glsl"
 
 uniform texture2D lighting;
 uniform utexture2D depth;
 layout(std430) readonly buffer coefficients { vec4 cells[]; };
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(constant_id = 1) const bool kAlphaIsSampleCount = false;
 #include "conventions/sampled_light.glsl"
 layout(rgba32f) uniform writeonly image2D outView;
@@ -77,11 +81,11 @@ vec3 viewOf(ivec2 p, float z) {
   const NormalAndOcclusion geometry = unpackGeometry(texelFetch(normals, p, 0).x);
   const float x[kFeatures] = unpackGuides(packedGuides(p), z);
   const vec4 light = texelFetch(lighting, p, 0);
-  if (kView == 2u) return isSampled(light) ? clampedRadiance(light.rgb) : vec3(0.0);
-  if (kView == 3u) return geometry.normal;
-  if (kView == 4u) return vec3(1.0 / z, geometry.occlusion, samplesOf(light));
+  if (view == 2u) return isSampled(light) ? clampedRadiance(light.rgb) : vec3(0.0);
+  if (view == 3u) return geometry.normal;
+  if (view == 4u) return vec3(1.0 / z, geometry.occlusion, samplesOf(light));
   const vec4 predicted = predict(p, x);
-  if (kView == 0u) return vec3(notEqual(clampedRadiance(predicted.rgb), predicted.rgb));
+  if (view == 0u) return vec3(notEqual(clampedRadiance(predicted.rgb), predicted.rgb));
   return vec3(predicted.a == 0.0, !isSampled(light), !isFinite(predicted.rgb));
 }
 #endif

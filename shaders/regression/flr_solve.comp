@@ -8,14 +8,18 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(push_constant) uniform PushConstants { FlrConstants constants; };
+layout(push_constant) uniform PushConstants {
+  FlrConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 #include "regression/flr.glsl"
 #include "common/cholesky.glsl"
 
 layout(std430) readonly buffer blurred { vec4 cells[]; };
 layout(std430) readonly buffer moreBlurred { vec4 moreCells[]; };  // Read with learned guides.
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(std430) writeonly buffer outCoefficients { vec4 outCells[]; };
@@ -66,7 +70,7 @@ vec2 pivotsOf(NormalEquations e) {
 
 vec3 viewOf(OuterProducts p) {
   const float samples = productAt(p, 0);
-  if (kView == 1u) return vec3(samples, samples < float(kUsedFeatures + 1), samples <= 0.0);
+  if (view == 1u) return vec3(samples, samples < float(kUsedFeatures + 1), samples <= 0.0);
   if (samples <= 0.0) return vec3(0.0);
   const vec2 pivots = pivotsOf(normalEquations(p));
   return vec3(pivots, pivots.y > 0.0);

@@ -24,13 +24,17 @@ uniform usampler2D previousGeometricNormal;
 uniform texture2D previousColour;
 uniform texture2D previousMoments;  // Mean luminance, its deviation, history length.
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(rgba16f) uniform writeonly image2D outColour;
 layout(rgba16f) uniform writeonly image2D outMoments;
 #endif
-layout(push_constant) uniform PushConstants { SvgfAccumulationConstants constants; };
+layout(push_constant) uniform PushConstants {
+  SvgfAccumulationConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 
 #include "temporal/confidence.glsl"
 #define HISTORY previousColour
@@ -95,7 +99,7 @@ TemporalMoments momentsWith(ivec2 p, TemporalMoments m, vec3 noisy) {
 // Numbered as in temporal_accumulation.comp.
 vec3 viewOf(ivec2 p, float z, vec3 noisy) {
   const bool surface = z > 0.0;
-  if (kView == 1u) {
+  if (view == 1u) {
     const bool clamped = isFinite(noisy) && clampedRadiance(noisy) != noisy;
     return vec3(!isFinite(noisy), surface && clamped, surface && !isFinite(motionAt(p)));
   }

@@ -50,7 +50,6 @@ layout(constant_id = 4) const bool kStill = false;
 #endif
 layout(constant_id = 2) const bool kBicubicHistory = false;
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #elif defined(PACKED)
 layout(r32ui) uniform writeonly uimage2D outAccumulated;
@@ -84,7 +83,12 @@ layout(push_constant) uniform PushConstants { GuidesAndAccumulationConstants pus
 #define guideConstants pushed.guides
 #include "guides/guides.glsl"
 #else
-layout(push_constant) uniform PushConstants { TemporalAccumulationConstants constants; };
+layout(push_constant) uniform PushConstants {
+  TemporalAccumulationConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 #endif
 
 #include "conventions/packed_light.glsl"
@@ -216,7 +220,7 @@ float brightnessOf(LightSample noisy, float z) {
 vec3 viewOf(ivec2 p, float z, LightSample noisy, float share) {
   const bool surface = z > 0.0;
   const bool sampleIsUsable = isUsable(noisy);
-  switch (kView) {
+  switch (view) {
     case 0u: {
       if (!surface) return vec3(0.0);
       const ReprojectedHistory found = historyWithAntilag(p, z, noisy);

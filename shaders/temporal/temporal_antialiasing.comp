@@ -38,7 +38,6 @@ uniform texture2D filtered;  // a: below 0 where the filter found no sample.
 uniform texture2D previousResolved;  // rgb: mean; a: history length.
 #endif
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; numbered in viewOf.
 layout(rgba32f) uniform writeonly image2D outView;
 #else
 #ifdef PACKED
@@ -66,7 +65,12 @@ uniform usampler2D previousObjects;
 #endif
 // Of the previous frame, for tiles of antilag: bits of floats, from 0 (not at all) to 1 (to no history).
 uniform usampler2D shortening;
-layout(push_constant) uniform PushConstants { TemporalAntialiasingConstants constants; };
+layout(push_constant) uniform PushConstants {
+  TemporalAntialiasingConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
 
 #ifdef PACKED
 #include "conventions/packed_light.glsl"
@@ -360,7 +364,7 @@ vec4 resolve(ivec2 p, vec4 current, ResolvedHistory history) {
 #ifdef VIEW
 vec3 viewOf(ivec2 p, vec4 current) {
   const ResolvedHistory history = historyOf(p);
-  switch (kView) {
+  switch (view) {
     case 0u: {
       if (current.a < 0.0 || history.light.a == 0.0) return vec3(0.0);
       const Clipped clipped = clippedHistory(history);

@@ -177,6 +177,17 @@ TEST_F(ExecutorTest, IndirectDispatchReadsItsGroupCountsOnTheGpu) {
   EXPECT_EQ(run.texels<std::uint32_t>(out), expected);
 }
 
+TEST_F(ExecutorTest, AnAppendedConstantFollowsTheOthers) {
+  Graph graph;
+  const Buffer out = graph.import("out", BufferDesc{3 * sizeof(std::uint32_t)}, vk::kOverwritable);
+  auto pass = graph.compute("count", shaders::groupCount).constants(std::uint32_t{7}).appendConstant(5);
+  graph.exported(pass.store("arguments", out), vk::kReadable);
+  pass.dispatch({1, 1});
+  GraphRun run(device(), graph);
+  run.frame();
+  EXPECT_EQ(run.elements<std::uint32_t>(out, 0), (std::vector<std::uint32_t>{7, 5, 1}));
+}
+
 TEST_F(ExecutorTest, CallbackPassRecordsIntoTheFrame) {
   Graph graph;
   const Texture target = importOutput(graph, "out");
