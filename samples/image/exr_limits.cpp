@@ -282,7 +282,7 @@ class Headers {
 
 }  // namespace
 
-void requireWithin(const ExrLimit& limit, std::int64_t number) {
+void requireWithin(const FileLimit& limit, std::int64_t number) {
   if (number > limit.most) {
     throw Fault("there are " + std::to_string(number) + " " + std::string(limit.of) + "; the limit is " +
                 std::to_string(limit.most));

@@ -3,34 +3,28 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <string_view>
 
+#include "samples/image/file_limit.h"
 #include "samples/image/pixel_rect.h"
 
 namespace walr {
 
-/// The most of something that an OpenEXR file may have.
-struct ExrLimit {
-  std::int64_t most;
-  std::string_view of;
-};
-
-inline constexpr ExrLimit kMostPixelsASide{16384, "pixels along a side of a window or of a tile"};
-inline constexpr ExrLimit kMostPixels{std::int64_t{8192} * 8192, "pixels in a window"};
-inline constexpr ExrLimit kFarthestCorner{1 << 20, "pixels from the origin to a corner of a window"};
-inline constexpr ExrLimit kMostParts{1024, "parts"};
-inline constexpr ExrLimit kMostChannels{4096, "channels of all parts"};
-inline constexpr ExrLimit kMostViews{256, "views"};
-inline constexpr ExrLimit kLargestBlock{1 << 29, "bytes in a block of lines or in a tile, decompressed"};
-inline constexpr ExrLimit kLargestAttribute{1 << 24, "bytes in an attribute of a header"};
-inline constexpr ExrLimit kLargestHeaders{1 << 26, "bytes in all headers"};
+inline constexpr FileLimit kMostPixelsASide{16384, "pixels along a side of a window or of a tile"};
+inline constexpr FileLimit kMostPixels{std::int64_t{8192} * 8192, "pixels in a window"};
+inline constexpr FileLimit kFarthestCorner{1 << 20, "pixels from the origin to a corner of a window"};
+inline constexpr FileLimit kMostParts{1024, "parts"};
+inline constexpr FileLimit kMostChannels{4096, "channels of all parts"};
+inline constexpr FileLimit kMostViews{256, "views"};
+inline constexpr FileLimit kLargestBlock{1 << 29, "bytes in a block of lines or in a tile, decompressed"};
+inline constexpr FileLimit kLargestAttribute{1 << 24, "bytes in an attribute of a header"};
+inline constexpr FileLimit kLargestHeaders{1 << 26, "bytes in all headers"};
 /// All of them, for the manual.
 inline constexpr std::array kExrLimits{kMostPixelsASide, kMostPixels,       kFarthestCorner,
                                        kMostParts,       kMostChannels,     kMostViews,
                                        kLargestBlock,    kLargestAttribute, kLargestHeaders};
 
 /// @throws std::runtime_error naming the limit if there is more
-void requireWithin(const ExrLimit& limit, std::int64_t number);
+void requireWithin(const FileLimit& limit, std::int64_t number);
 
 /// Require that a window is within the limits on windows.
 /// @throws std::runtime_error naming the limit

@@ -12,6 +12,7 @@
 #include "samples/render/gltf_compression.h"
 #include "samples/render/gltf_convert.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/scene_limits.h"
 
 namespace walr::render::gltf {
 namespace {
@@ -36,16 +37,16 @@ void checkSizes(std::span<const std::uint8_t> bytes, std::uint64_t& total, const
       value |= std::uint64_t{byte & 0x7fU} << shift;
       if ((byte & 0x80U) == 0) break;
     }
-    constexpr std::uint64_t kMostForAByte = 256;
-    if (value > kMostForAByte * bytes.size()) {
+    if (value > kMostDracoElementsOfAByte.most * bytes.size()) {
       throw SceneError(name + ": has " + std::to_string(value) + " faces or points in " + std::to_string(bytes.size()) +
-                       " bytes; the limit is 256 for each byte");
+                       " bytes; the limit is " + std::to_string(kMostDracoElementsOfAByte.most) + " for each byte");
     }
     total += value;
   }
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 26U;
-  if (total > kMost)
-    throw SceneError(name + ": with it, meshes have more than " + std::to_string(kMost) + " faces and points");
+  if (total > kMostDracoElements.most) {
+    throw SceneError(name + ": with it, meshes have more than " + std::to_string(kMostDracoElements.most) +
+                     " faces and points");
+  }
 }
 
 int componentType(const draco::PointAttribute& attribute, const std::string& name) {

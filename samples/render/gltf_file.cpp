@@ -14,21 +14,18 @@
 
 #include "samples/render/gltf_json.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/scene_limits.h"
 
 namespace walr::render::gltf {
 namespace {
 
 namespace fs = std::filesystem;
 
-// tinygltf stores file sizes in 32-bit integers.
-constexpr std::uintmax_t kLargestFile = 0x7fffffff;
-constexpr std::uintmax_t kAllFiles = std::uintmax_t{1} << 32U;
-
 /// The files of a scene that are read one after the other.
 struct FilesRead {
-  std::uintmax_t budget = kAllFiles;  ///< Bytes left of the limit for all files together.
-  Fingerprint* contents = nullptr;    ///< Takes in the bytes; may be null.
-  std::deque<std::size_t> lengths{};  ///< Of the buffers, which are read before the images.
+  std::uintmax_t budget = kMostSceneBytes.most;  ///< Bytes left of the limit for all files together.
+  Fingerprint* contents = nullptr;               ///< Takes in the bytes; may be null.
+  std::deque<std::size_t> lengths{};             ///< Of the buffers, which are read before the images.
 };
 
 std::vector<unsigned char> readWholeFile(const fs::path& file, const FilesRead& files) {
@@ -40,7 +37,7 @@ std::vector<unsigned char> readWholeFile(const fs::path& file, const FilesRead& 
     throw SceneError("not a regular file");
   }
   const std::uintmax_t size = fs::file_size(file, error);
-  if (error || size > kLargestFile) {
+  if (error || size > kLargestSceneFile.most) {
     throw SceneError(error ? error.message() : "larger than 2 GiB");
   }
   if (size > files.budget) {

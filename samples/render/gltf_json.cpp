@@ -8,18 +8,12 @@
 
 #include "samples/render/gltf_compression.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/scene_limits.h"
 
 namespace walr::render::gltf {
 namespace {
 
 using Json = nlohmann::json;
-
-// The parser recurses once per level, so that a hostile file could overflow the stack. glTF itself needs about ten
-// levels.
-constexpr int kDeepestNesting = 128;
-
-// A parsed value takes up to 40 bytes, also if it takes two in the file. A node with a matrix has about 20 values.
-constexpr std::size_t kMostValues = std::size_t{1} << 25U;
 
 // The parser demands a buffer view of indices. Those without one get the view of this name.
 constexpr const char* kAbsentView = "walr: no buffer view";
@@ -45,7 +39,7 @@ constexpr std::array kOptional = {OptionalExtension{kDracoExtension, kDraco, "dr
 
 void checkText(std::string_view json) {
   int depth = 0;
-  std::size_t values = 0;
+  std::int64_t values = 0;
   bool inString = false;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
@@ -56,8 +50,8 @@ void checkText(std::string_view json) {
       inString = true;
     } else if (c == '{' || c == '[') {
       ++values;
-      if (++depth > kDeepestNesting) {
-        throw SceneError("its JSON is nested more than " + std::to_string(kDeepestNesting) + " levels deep");
+      if (++depth > kDeepestJson.most) {
+        throw SceneError("its JSON is nested more than " + std::to_string(kDeepestJson.most) + " levels deep");
       }
     } else if (c == '}' || c == ']') {
       --depth;
@@ -65,8 +59,9 @@ void checkText(std::string_view json) {
       ++values;
     }
   }
-  if (values > kMostValues) {
-    throw SceneError("its JSON has " + std::to_string(values) + " values; the limit is " + std::to_string(kMostValues));
+  if (values > kMostJsonValues.most) {
+    throw SceneError("its JSON has " + std::to_string(values) + " values; the limit is " +
+                     std::to_string(kMostJsonValues.most));
   }
 }
 

@@ -5,12 +5,10 @@
 #include <string>
 
 #include "samples/render/scene_error.h"
+#include "samples/render/scene_limits.h"
 
 namespace walr::render::gltf {
 namespace {
-
-constexpr std::uint64_t kMost = std::uint64_t{1} << 27U;
-constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 22U;
 
 // Counts the elements of accessors. A count beyond the file's bytes is capped: it is invalid, and the accessor's reader
 // reports that with a better message. Zeros without a buffer view are counted apart.
@@ -26,7 +24,7 @@ class Uses {
     if (accessor < 0 || static_cast<std::size_t>(accessor) >= model_.accessors.size()) return;
     const tinygltf::Accessor& counted = model_.accessors[static_cast<std::size_t>(accessor)];
     if (counted.bufferView < 0) {
-      zeros_ += std::min(counted.count, kMost + 1);
+      zeros_ += std::min<std::uint64_t>(counted.count, kMostZeros.most + 1);
     } else {
       total_ += std::min<std::uint64_t>(counted.count, bytes_);
     }
@@ -34,12 +32,13 @@ class Uses {
 
   // @throws SceneError if there are too many
   void check() const {
-    if (total_ > kMost) {
+    if (total_ > kMostElements.most) {
       throw SceneError("its meshes and animations have " + std::to_string(total_) +
-                       " vertices, indices and keys, counted once for each use; the limit is " + std::to_string(kMost));
+                       " vertices, indices and keys, counted once for each use; the limit is " +
+                       std::to_string(kMostElements.most));
     }
-    if (zeros_ > kMostZeros) {
-      throw SceneError("its accessors without a buffer view have more than " + std::to_string(kMostZeros) +
+    if (zeros_ > kMostZeros.most) {
+      throw SceneError("its accessors without a buffer view have more than " + std::to_string(kMostZeros.most) +
                        " vertices, indices and keys, counted once for each use");
     }
   }
@@ -79,9 +78,9 @@ void checkPlacedTriangles(const Scene& scene) {
       total += scene.meshes[mesh].triangles.size();
     }
   }
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 26U;
-  if (total > kMost) {
-    throw SceneError("its nodes have " + std::to_string(total) + " triangles; the limit is " + std::to_string(kMost));
+  if (total > kMostTriangles.most) {
+    throw SceneError("its nodes have " + std::to_string(total) + " triangles; the limit is " +
+                     std::to_string(kMostTriangles.most));
   }
 }
 

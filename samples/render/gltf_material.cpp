@@ -8,17 +8,16 @@
 #include "samples/render/gltf_json.h"
 #include "samples/render/image_decode.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/scene_limits.h"
 
 namespace walr::render::gltf {
 namespace {
-
-constexpr std::uint64_t kTexelBudget = std::uint64_t{1} << 28U;  // 1 GiB of RGBA bytes.
 
 using OptionalIndices = std::vector<std::optional<std::uint32_t>>;
 
 OptionalIndices convertImages(const tinygltf::Model& model, Scene& scene) {
   OptionalIndices indices;
-  std::uint64_t budget = kTexelBudget;
+  std::uint64_t budget = kMostTexels.most;
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const tinygltf::Image& source = model.images[i];
     const std::string name = partName("image", i, source.uri.empty() ? source.name : source.uri);

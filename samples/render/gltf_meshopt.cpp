@@ -10,6 +10,7 @@
 #include "samples/render/gltf_compression.h"
 #include "samples/render/gltf_convert.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/scene_limits.h"
 
 namespace walr::render::gltf {
 namespace {
@@ -78,8 +79,7 @@ void decodeMeshopt(tinygltf::Model& model) {
                  .filter = textOf(source, "filter", "NONE")};
     if (!isValid(c)) throw SceneError(name + ": has an invalid mode, filter, stride or count");
     // The codec stores at least two bits for each byte of 16 elements. Views do not share bytes.
-    constexpr std::size_t kMostTimes = 64;
-    if (c.bytes.size() > budget || c.count > kMostTimes * c.bytes.size() / c.stride) {
+    if (c.bytes.size() > budget || c.count > kMostMeshoptBytesOfAByte.most * c.bytes.size() / c.stride) {
       throw SceneError(name + ": its " + std::to_string(c.count) + " elements exceed what its bytes can hold");
     }
     budget -= c.bytes.size();

@@ -2,95 +2,156 @@
 
 #include <algorithm>
 #include <array>
+#include <csetjmp>
 #include <cstring>
 #include <memory>
 #include <string>
 
+#include <png.h>
 #include <stb_image.h>
-#include <zlib.h>
 
 #include "samples/render/scene_error.h"
+#include "samples/render/scene_limits.h"
 
 namespace walr::render {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kPng = {0x89, 'P', 'N', 'G'};
 constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
+constexpr std::uint32_t kRgba = 4;
 
 bool startsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> signature) {
   return bytes.size() >= signature.size() && std::ranges::equal(bytes.first(signature.size()), signature);
 }
 
-/// Refuse a PNG whose data expand to more bytes than its pixels have: stb_image expands all of them, up to 4 GiB.
-void refuseExpansion(std::span<const std::uint8_t> png, std::uint64_t width, std::uint64_t height) {
-  // Of 16-bit RGBA. A line begins with a byte for its filter, and interlaced lines are less than twice as many.
-  const std::uint64_t most = 8 * width * height + 2 * height + 64;
-  z_stream stream{};
-  if (inflateInit(&stream) != Z_OK) throw SceneError("cannot be decoded: zlib does not start");
-  const std::unique_ptr<z_stream, decltype(&inflateEnd)> owner(&stream, &inflateEnd);
-  std::array<std::uint8_t, 1U << 14U> discarded{};
-  constexpr std::size_t kSignature = 8;
-  constexpr std::size_t kChunkHeader = 8;  // Length and name; a checksum of four bytes ends the chunk.
-  std::span<const std::uint8_t> rest = png.subspan(std::min(png.size(), kSignature));
-  int state = Z_OK;
-  while (state == Z_OK && rest.size() >= kChunkHeader) {
-    const std::size_t length =
-        std::size_t{rest[0]} << 24U | std::size_t{rest[1]} << 16U | std::size_t{rest[2]} << 8U | rest[3];
-    const bool holdsPixels = std::memcmp(&rest[4], "IDAT", 4) == 0;
-    rest = rest.subspan(kChunkHeader);
-    const std::span<const std::uint8_t> data = rest.first(std::min(rest.size(), length));
-    rest = rest.subspan(std::min(rest.size(), length + 4));
-    if (!holdsPixels) continue;
-    stream.next_in = const_cast<std::uint8_t*>(data.data());  // zlib does not write there.
-    stream.avail_in = static_cast<unsigned>(data.size());
-    while (stream.avail_in > 0 && state == Z_OK) {
-      stream.next_out = discarded.data();
-      stream.avail_out = static_cast<unsigned>(discarded.size());
-      state = inflate(&stream, Z_NO_FLUSH);
-      if (stream.total_out > most) throw SceneError("cannot be decoded: its data are larger than its pixels");
+/// Check the size before memory is allocated.
+/// @param most  texels that the file's bytes could hold
+/// @returns an image without texels
+Image sizedImage(std::uint32_t width, std::uint32_t height, std::uint64_t most, std::uint64_t texelBudget) {
+  const std::string dimensions = std::to_string(width) + " x " + std::to_string(height) + " texels";
+  if (width < 1 || height < 1 || width > kMostTexelsASide.most || height > kMostTexelsASide.most) {
+    throw SceneError("has " + dimensions + "; the limit is " + std::to_string(kMostTexelsASide.most) + " a side");
+  }
+  const std::uint64_t texels = std::uint64_t{width} * height;
+  if (texels > texelBudget) {
+    throw SceneError("has " + dimensions + ", which exceeds the limit for all textures together");
+  }
+  if (texels > most) throw SceneError("cannot be decoded: its data cannot hold " + dimensions);
+  Image image;
+  image.width = width;
+  image.height = height;
+  return image;
+}
+
+/// libpng with the bytes that it reads. It reports errors by a jump, so that functions that call it hold no objects
+/// with destructors.
+class PngReader {
+ public:
+  explicit PngReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngReader::fail, [](png_structp, png_const_charp) {});
+    info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
+    if (info_ == nullptr) {
+      png_destroy_read_struct(&png_, &info_, nullptr);
+      throw SceneError("cannot be decoded: libpng does not start");
     }
   }
-  // stb_image would expand what has no header, too.
-  if (state != Z_OK && stream.total_out == 0) throw SceneError("cannot be decoded: its data are damaged");
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  /// Read what stands before the pixels. @returns false after an error
+  bool readHeader() {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_set_read_fn(png_, this, &PngReader::give);
+    // Colour profiles and texts are of no use, and compressed; exporters get checksums wrong.
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+    png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // The caller has a better message.
+    png_read_info(png_, info_);
+    return true;
+  }
+  /// @param rgba  of the size of the image
+  bool readPixels(std::span<std::uint8_t> rgba) {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_set_expand(png_);
+    png_set_strip_16(png_);
+    png_set_gray_to_rgb(png_);
+    png_set_add_alpha(png_, 0xff, PNG_FILLER_AFTER);
+    // Interlaced images are read in seven passes over all lines.
+    for (int pass = png_set_interlace_handling(png_); pass > 0; --pass) {
+      for (std::size_t y = 0; y < height(); ++y) png_read_row(png_, &rgba[y * width() * kRgba], nullptr);
+    }
+    return true;
+  }
+  [[nodiscard]] std::uint32_t width() const { return png_get_image_width(png_, info_); }
+  [[nodiscard]] std::uint32_t height() const { return png_get_image_height(png_, info_); }
+  /// How many texels a byte of the file holds at most.
+  [[nodiscard]] std::uint64_t texelsOfAByte() const {
+    constexpr std::uint64_t kExpansion = 1032;  // Of zlib at most (https://zlib.net/zlib_tech.html).
+    return kExpansion * 8 / (png_get_channels(png_, info_) * png_get_bit_depth(png_, info_));
+  }
+  [[nodiscard]] std::string error() const { return error_.data(); }
+
+ private:
+  static void fail(png_structp png, png_const_charp message) {
+    std::array<char, 100>& error = static_cast<PngReader*>(png_get_error_ptr(png))->error_;
+    std::strncpy(error.data(), message, error.size() - 1);
+    png_longjmp(png, 1);
+  }
+  static void give(png_structp png, png_bytep bytes, std::size_t count) {
+    std::span<const std::uint8_t>& rest = static_cast<PngReader*>(png_get_io_ptr(png))->rest_;
+    if (count > rest.size()) png_error(png, "it ends too early");
+    std::memcpy(bytes, rest.data(), count);
+    rest = rest.subspan(count);
+  }
+
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  std::span<const std::uint8_t> rest_;
+  std::array<char, 100> error_{};
+};
+
+Image decodePng(std::span<const std::uint8_t> bytes, std::uint64_t texelBudget) {
+  PngReader png(bytes);
+  if (!png.readHeader()) throw SceneError("cannot be read: " + png.error());
+  Image image = sizedImage(png.width(), png.height(), png.texelsOfAByte() * bytes.size(), texelBudget);
+  image.rgba.resize(std::size_t{kRgba} * image.width * image.height);
+  if (!png.readPixels(image.rgba)) throw SceneError("cannot be decoded: " + png.error());
+  return image;
+}
+
+Image decodeJpeg(std::span<const std::uint8_t> bytes, std::uint64_t texelBudget) {
+  const int size = static_cast<int>(bytes.size());
+  int width = 0;
+  int height = 0;
+  int components = 0;
+  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &components) == 0) {
+    throw SceneError(std::string("cannot be read: ") + stbi_failure_reason());
+  }
+  // A block of 8 x 8 texels takes at least a bit. stb_image decodes missing ones, too, for seconds.
+  constexpr std::uint64_t kTexelsOfAByte = 512;
+  Image image = sizedImage(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                           kTexelsOfAByte * bytes.size(), texelBudget);
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
+      stbi_load_from_memory(bytes.data(), size, &width, &height, &components, int{kRgba}), &stbi_image_free);
+  if (!decoded) {
+    const std::string reason = stbi_failure_reason();  // Empty at the end of the file.
+    throw SceneError("cannot be decoded: " + (reason.empty() ? "it ends too early" : reason));
+  }
+  image.rgba.assign(decoded.get(), decoded.get() + std::size_t{kRgba} * image.width * image.height);
+  return image;
 }
 
 }  // namespace
 
 Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudget) {
-  constexpr int kLargestSide = 16384;
-  const int size = static_cast<int>(bytes.size());
-  int width = 0;
-  int height = 0;
-  int components = 0;
-  // stb_image reads more formats than glTF allows. They are refused, because their decoders are little tested.
   const bool png = startsWith(bytes, kPng);
   if (!png && !startsWith(bytes, kJpeg)) {
     throw SceneError("not a PNG or JPEG image");
   }
-  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &components) == 0) {
-    throw SceneError(std::string("cannot be read: ") + stbi_failure_reason());
-  }
-  const std::string dimensions = std::to_string(width) + " x " + std::to_string(height) + " texels";
-  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
-    throw SceneError("has " + dimensions + "; the limit is " + std::to_string(kLargestSide) + " a side");
-  }
-  const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (texels > texelBudget) {
-    throw SceneError("has " + dimensions + ", which exceeds the limit for all textures together");
-  }
-  if (png) refuseExpansion(bytes, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
-  constexpr int kRgba = 4;
-  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
-      stbi_load_from_memory(bytes.data(), size, &width, &height, &components, kRgba), &stbi_image_free);
-  if (!decoded) {
-    const std::string reason = stbi_failure_reason();  // Empty at the end of the file.
-    throw SceneError("cannot be decoded: " + (reason.empty() ? "it ends too early" : reason));
-  }
-  texelBudget -= texels;
-  Image image;
-  image.width = static_cast<std::uint32_t>(width);
-  image.height = static_cast<std::uint32_t>(height);
-  image.rgba.assign(decoded.get(), decoded.get() + texels * kRgba);
+  Image image = png ? decodePng(bytes, texelBudget) : decodeJpeg(bytes, texelBudget);
+  texelBudget -= std::uint64_t{image.width} * image.height;
   return image;
 }
 

@@ -22,8 +22,7 @@ namespace walr::render {
 /// radiance 1 above and 0.25 below; without a camera, glowing surfaces do not count as light. `Scene::warnings` says
 /// so, and lists what the file holds beyond that.
 /// @throws SceneError naming the file and the part that is missing, damaged, required but not supported, or
-///         larger than a limit: 2 GiB per file and 4 GiB in all; JSON of 128 levels and 2^25 values; 16384 texels a
-///         side and 1 GiB of texels in all; 2^27 vertices, indices and keys, 2^22 without a buffer view; 2^26 triangles
+///         beyond a limit (scene_limits.h)
 Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky = {},
                 Fingerprint* contents = nullptr);
 

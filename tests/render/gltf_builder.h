@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -55,6 +56,21 @@ class GltfBuilder {
     const std::size_t index = accessor(Float, "VEC3", values);
     primitive()["attributes"]["POSITION"] = index;
     return index;
+  }
+
+  /// The bytes of a .glb file.
+  [[nodiscard]] std::string glb() {
+    if (!bytes_.empty()) json["buffers"][0] = {{"byteLength", bytes_.size()}};
+    const auto word = [](std::size_t value) {
+      const auto narrow = static_cast<std::uint32_t>(value);
+      return std::string(reinterpret_cast<const char*>(&narrow), sizeof narrow);
+    };
+    const auto chunk = [&](const std::string& type, std::string data, char padding) {
+      data.resize((data.size() + 3) / 4 * 4, padding);
+      return word(data.size()) + type + data;
+    };
+    const std::string chunks = chunk("JSON", json.dump(), ' ') + chunk({"BIN", 4}, bytes_, '\0');
+    return "glTF" + word(2) + word(12 + chunks.size()) + chunks;
   }
 
   /// Write the file and its buffer to a folder.

@@ -1,21 +1,13 @@
-// What a header may make the OpenEXR library allocate, and how long a damaged file may take. The environment chooses
-// how many files are tried at random, and another first seed: WALR_FILES=1000000 WALR_SEED=1.
+// What a header may make the OpenEXR library allocate, and how long a damaged file may take.
 #include "samples/image/exr_limits.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iostream>
-#include <limits>
 #include <random>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -23,63 +15,16 @@
 
 #include "samples/errors.h"
 #include "samples/image/exr.h"
+#include "tests/damaged_files.h"
 #include "tests/error_text.h"
-#include "tests/guide_table.h"
+#include "tests/limits_table.h"
 #include "tests/samples/exr_files.h"
 #include "tests/samples/temporary_directory.h"
-
-namespace {
-
-/// The largest request for memory, in bytes. Libraries of the program come here, too.
-std::atomic<std::size_t> largestRequest = 0;
-
-}  // namespace
-
-// Sanitizers have allocators of their own, which refuse what is too large.
-#ifdef WALR_COUNT_REQUESTS
-namespace {
-
-void note(std::size_t bytes) {
-  std::size_t largest = largestRequest;
-  while (bytes > largest && !largestRequest.compare_exchange_weak(largest, bytes)) {
-  }
-}
-
-}  // namespace
-
-extern "C" {
-void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier): names of glibc.
-void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)
-void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
-void* malloc(std::size_t bytes) noexcept {
-  note(bytes);
-  return __libc_malloc(bytes);
-}
-void* calloc(std::size_t count, std::size_t bytes) noexcept {
-  note(count * bytes);
-  return __libc_calloc(count, bytes);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept {
-  note(bytes);
-  return __libc_memalign(alignment, bytes);
-}
-int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept {
-  note(bytes);
-  *memory = __libc_memalign(alignment, bytes);
-  return *memory != nullptr ? 0 : ENOMEM;
-}
-}
-#endif
 
 namespace walr {
 namespace {
 
 using test::ExrPart;
-
-std::uint64_t fromEnvironment(const char* variable, std::uint64_t otherwise) {
-  const char* const text = std::getenv(variable);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 /// Where an attribute of a header lies in the bytes of a file.
 struct Place {
@@ -200,9 +145,9 @@ TEST_F(ExrLimits, AHeaderThatClaimsTooMuchIsRefusedBeforeMemoryIsAllocated) {
         test::exrBytes({.parts = {ExrPart{.channels = {"B", "G", "R"}, .tile = claim.tile}}, .manyAttributes = true});
     claim.change(bytes);
     write(bytes);
-    largestRequest = 0;
+    test::takeLargestRequest();
     fg::test::expectError<InputError>([&] { readWhole(file); }, claim.error);
-    EXPECT_LT(largestRequest, 1U << 17U);
+    EXPECT_LT(test::takeLargestRequest(), 1U << 17U);
   }
 }
 
@@ -219,9 +164,9 @@ TEST_F(ExrLimits, AFileOf85BytesWithAHugeWindowIsRefusedAtOnce) {
   EXPECT_EQ(bytes.size(), 85U);
   write(bytes);
   EXPECT_FALSE(isCompleteExr(file));
-  largestRequest = 0;
+  test::takeLargestRequest();
   fg::test::expectError<InputError>([&] { readWhole(file); }, {"a.exr", "2147483648 pixels", "16384"});
-  EXPECT_LT(largestRequest, 1U << 17U);
+  EXPECT_LT(test::takeLargestRequest(), 1U << 17U);
 }
 
 TEST_F(ExrLimits, PartsAndChannelsAreCounted) {
@@ -239,13 +184,7 @@ TEST_F(ExrLimits, PartsAndChannelsAreCounted) {
 }
 
 TEST(ExrLimitsTable, IsThatOfTheManual) {
-  std::string table = "| most | of |\n| --- | --- |\n";
-  for (const ExrLimit& limit : kExrLimits) {
-    table += "| " + std::to_string(limit.most) + " | " + std::string(limit.of) + " |\n";
-  }
-  const test::GuideTable manual(WALR_PROJECT "/samples/docs/sequences.md", "Limits of OpenEXR files");
-  if (test::GuideTable::writing()) return manual.write(table);
-  EXPECT_EQ(manual.text(), table) << "cmake --build build --target update_guide";
+  test::checkTableOfLimits(kExrLimits, "samples/docs/sequences.md", "Limits of OpenEXR files");
 }
 
 /// Files of all kinds that are read.
@@ -267,7 +206,7 @@ std::vector<std::string> seeds() {
 
 /// Changes a file at random: mostly what its headers say, else any byte.
 std::string changed(std::string bytes, std::mt19937_64& random) {
-  const auto below = [&](std::size_t bound) { return static_cast<std::size_t>(random() % bound); };
+  const auto below = [&](std::size_t bound) { return test::below(random, bound); };
   constexpr std::uint32_t kNumbers[] = {
       0,          1,          2,          3,          7,          255,        256,        4096,       16383,     16384,
       0x00ffffff, 0x3fffffff, 0x40000000, 0x7ffffffe, 0x7fffffff, 0x80000000, 0xc0000000, 0xfffffffe, 0xffffffff};
@@ -310,37 +249,21 @@ std::string changed(std::string bytes, std::mt19937_64& random) {
 }
 
 TEST_F(ExrLimits, DamagedFilesNeitherCrashNorHangNorFillMemory) {
-  const std::uint64_t files = fromEnvironment("WALR_FILES", 1500);
-  const std::uint64_t first = fromEnvironment("WALR_SEED", 1);
   const std::vector<std::string> whole = seeds();
-  std::uint64_t read = 0;
-  std::size_t largest = 0;
-  double longest = 0.0;
-  for (std::uint64_t seed = first; seed < first + files; ++seed) {
-    std::mt19937_64 random(seed);
-    write(changed(whole[seed % whole.size()], random));
-    largestRequest = 0;
-    const std::clock_t begin = std::clock();  // The processor's time: other programs may hold this one up.
-    try {
-      readWhole(file);
-      ++read;
-    } catch (const InputError& error) {
-      ASSERT_NE(std::string(error.what()).find("a.exr"), std::string::npos) << "seed " << seed << ": " << error.what();
-    } catch (const std::exception& error) {
-      FAIL() << "seed " << seed << ": " << error.what();
-    }
-    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    // An image of three components with as many pixels as a window may have, and the largest block.
-    ASSERT_LE(largestRequest, static_cast<std::size_t>(3 * 4 * kMostPixels.most)) << "seed " << seed;
-    EXPECT_LT(seconds, 1.0) << "seed " << seed;
-    largest = std::max<std::size_t>(largest, largestRequest);
-    longest = std::max(longest, seconds);
-  }
-  std::cout << files << " files, " << read << " of them read; largest request " << largest << " bytes, longest "
-            << longest << " s of the processor\n";
-  // Both outcomes are tried.
-  EXPECT_GT(read, files / 50);
-  EXPECT_LT(read, files / 2);
+  test::tryDamagedFiles(
+      {.read =
+           [&](std::mt19937_64& random, std::uint64_t seed) {
+             write(changed(whole[seed % whole.size()], random));
+             try {
+               readWhole(file);
+               return true;
+             } catch (const InputError& error) {
+               EXPECT_NE(std::string(error.what()).find("a.exr"), std::string::npos) << error.what();
+               return false;
+             }
+           },
+       // An image of three components with as many pixels as a window may have, and the largest block.
+       .largestRequest = std::size_t{3 * 4} * kMostPixels.most});
 }
 
 }  // namespace
