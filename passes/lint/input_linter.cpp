@@ -39,6 +39,7 @@ void InputLinter::add(std::span<const std::uint32_t> words, const FrameDescripti
                   .size = {extent.width, extent.height},
                   .continues = continues,
                   .samples = lintSamples(words, extent, camera.skyDepth)};
+  edges_.add(frame);
   normals_.add(frame);
   motion_.add(std::move(frame));
   if (continues) addProjections(camera, extent);
@@ -58,7 +59,7 @@ void InputLinter::addProjections(const FrameDescription& frame, fg::Extent exten
 }
 
 std::vector<LintFinding> InputLinter::findings() const {
-  LintJudge judge(conventions_, counts_, normals_, motion_);
+  LintJudge judge(conventions_, counts_, edges_, normals_, motion_);
   if (2 * shiftedCameras_ > cameras_) {
     std::array<char, 64> shift{};
     std::snprintf(shift.data(), shift.size(), "(%.2f, %.2f)", largestShift_.x, largestShift_.y);

@@ -8,6 +8,7 @@
 
 #include "passes/conventions/frame.h"
 #include "passes/conventions/inputs.h"
+#include "passes/lint/lint_edges.h"
 #include "passes/lint/lint_finding.h"
 #include "passes/lint/lint_inputs.h"
 #include "passes/lint/lint_normals.h"
@@ -41,6 +42,7 @@ class InputLinter {
 
   InputConventions conventions_;
   LintCounts counts_;
+  LintEdges edges_;
   LintNormals normals_;
   LintMotion motion_;
   std::uint64_t cameras_ = 0;

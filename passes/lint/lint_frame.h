@@ -42,15 +42,17 @@ struct LintReading {
     Any,       ///< Unknown: that which agrees best with motion.
   };
   glm::dmat4 previousFromView{1.0};
+  glm::dvec4 ray{0.0};          ///< As `FrameConstants::rayFromPixel`.
   glm::dvec4 previousRay{0.0};  ///< As `FrameConstants::previousRayFromPixel`.
   glm::dvec2 jitterDelta{0.0};  ///< As `FrameConstants::jitterDelta`.
   glm::dvec2 inMotion{0.0};     ///< Jitter that motion holds, pixels.
   glm::dvec2 scale{1.0};        ///< Multiplies motion to give pixels, beside the stated scale; 0: motion is 0.
   double depthScale = 1.0;      ///< Multiplies depth.
   Depth depth = Depth::Axis;
+  double fitted = 1.0;  ///< A factor that was fitted to the samples.
 
   [[nodiscard]] bool samePlaces(const LintReading& other) const {
-    return previousFromView == other.previousFromView && previousRay == other.previousRay &&
+    return previousFromView == other.previousFromView && ray == other.ray && previousRay == other.previousRay &&
            jitterDelta == other.jitterDelta && depthScale == other.depthScale && depth == other.depth;
   }
 };
@@ -71,11 +73,14 @@ LintPrediction predict(const LintFrame& frame, const LintReading& reading, const
 LintPrediction predict(const LintFrame& frame, const LintReading& reading, const LintReading& alike,
                        const LintPrediction& seenAlike);
 /// View depth of a sample under a reading, scene units.
-double depthOf(const LintFrame& frame, const LintReading& reading, const LintSample& sample);
+double depthOf(const LintReading& reading, const LintSample& sample);
 /// Motion that the camera's rotation alone would give, pixels.
-glm::dvec2 motionOfRotation(const LintFrame& frame, const LintReading& reading, const LintSample& sample);
+glm::dvec2 motionOfRotation(const LintReading& reading, const LintSample& sample);
 /// Inverse of the view depth that agrees best with motion, scene units; below 0 behind the camera, 0 where the camera
 /// does not move.
 double inverseDepthFromMotion(const LintFrame& frame, const LintReading& reading, const LintSample& sample);
+/// Translation from this frame's view space to the previous one's that agrees best with the motion of most samples, for
+/// a reading's rotation and depth; not finite if none does.
+glm::dvec3 translationFromMotion(const LintFrame& frame, const LintReading& reading);
 
 }  // namespace walr

@@ -1,9 +1,11 @@
 #include "passes/lint/lint_hypotheses.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -69,6 +71,69 @@ bool viewAxes(Context, Signs signs, Reading reading) {
   return true;
 }
 
+/// What a view matrix without its translation hides.
+bool withoutPosition(Context context, Signs, Reading reading) {
+  const FrameDescription& camera = context.frame.camera;
+  const glm::vec4 nowhere(0.0F, 0.0F, 0.0F, 1.0F);
+  if (camera.view[3] != nowhere || camera.previousView[3] != nowhere || camera.origin != camera.previousOrigin)
+    return false;
+  const glm::dvec3 translation = translationFromMotion(context.frame, reading);
+  reading.previousFromView[3] = glm::dvec4(translation, 1.0);
+  return std::isfinite(glm::length(translation));
+}
+
+/// Rays of another projection: the factor that brings most samples near to motion.
+/// @tparam x, y which axes have it
+template <bool x, bool y>
+bool otherProjection(Context context, Signs, Reading reading) {
+  const LintReading stated = reading;
+  const auto read = [&](double logarithm) {
+    reading = stated;
+    reading.fitted = std::exp(logarithm);
+    const glm::dvec2 factor(x ? reading.fitted : 1.0, y ? reading.fitted : 1.0);
+    for (glm::dvec4* ray : {&reading.ray, &reading.previousRay}) *ray *= glm::dvec4(factor, factor);
+  };
+  const auto near = [&](double logarithm) {
+    read(logarithm);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < context.frame.samples.size(); i += 8) {  // Enough for one number.
+      const LintSample& sample = context.frame.samples[i];
+      const LintPrediction seen = predict(context.frame, reading, sample);
+      const double off = glm::length((context.frame.motionOf(sample) - seen.given) / seen.tolerance);
+      if (std::isfinite(off)) sum += 1.0 / (1.0 + off * off);
+    }
+    return sum;
+  };
+  double best = 0.0;
+  double most = near(best);
+  const auto search = [&](double middle, double step, int steps) {
+    for (int i = -steps; i <= steps; ++i) {
+      const double logarithm = middle + i * step;
+      const double sum = near(logarithm);
+      if (sum <= most) continue;
+      most = sum;
+      best = logarithm;
+    }
+  };
+  search(0.0, 0.1, 12);  // A third to three times.
+  search(best, 0.02, 5);
+  search(best, 0.004, 5);
+  read(best);
+  return std::abs(best) > 0.03;
+}
+
+/// Images whose last row comes first.
+bool upsideDown(Context context, Signs signs, Reading reading) {
+  for (glm::dvec4* ray : {&reading.ray, &reading.previousRay}) {
+    ray->w += context.frame.size.y * ray->y;
+    ray->y = -ray->y;
+  }
+  reading.jitterDelta.y = -reading.jitterDelta.y;
+  reading.inMotion.y = -reading.inMotion.y;
+  reading.scale = glm::dvec2(signs);
+  return true;
+}
+
 // ---- Motion ----
 
 bool otherSigns(Context, Signs signs, Reading reading) {
@@ -97,6 +162,28 @@ bool inPixels(Context context, Signs signs, Reading reading) {
   return inUnit(context, signs, reading, glm::dvec2(1.0));
 }
 
+/// Motion in pixels of a picture of another size: the median factor of each axis.
+bool inOtherPixels(Context context, Signs, Reading reading) {
+  constexpr double kLeastMotion = 0.1;  // Pixels.
+  constexpr double kMost = 5.0;         // Such as a fifth of the height.
+  std::array<std::optional<double>, 2> factors;
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<double> all;
+    for (const LintSample& sample : context.frame.samples) {
+      const double given = context.frame.motionOf(sample)[axis];
+      const double seen = predict(context.frame, reading, sample).motion[axis];
+      if (std::abs(given) > kLeastMotion && std::isfinite(seen)) all.push_back(seen / given);
+    }
+    factors.at(std::size_t(axis)) = median(std::move(all));
+  }
+  if (!factors[0] && !factors[1]) return false;
+  reading.scale = {factors[0] ? *factors[0] : *factors[1], factors[1] ? *factors[1] : *factors[0]};
+  reading.fitted = reading.scale.x;
+  const auto isOther = [&](double factor) { return factor > 1.0 / kMost && factor < kMost; };
+  return isOther(reading.scale.x) && isOther(reading.scale.y) &&
+         std::max(std::abs(std::log(reading.scale.x)), std::abs(std::log(reading.scale.y))) > 0.1;
+}
+
 bool toNext(Context context, Signs signs, Reading reading) {
   const LintFrame& next = *context.next;
   reading.previousFromView = viewFromView(context.frame.camera, glm::dmat4(next.camera.view), next.camera.origin);
@@ -122,6 +209,24 @@ bool jitterNegated(Context, Signs, Reading reading) {
 bool jitterLate(Context context, Signs, Reading reading) {
   reading.inMotion = glm::dvec2(context.next->constants.jitterDelta);
   return context.motionJittered;
+}
+
+/// Jitter in another unit, of which `pixels` are 1.
+bool jitterIn(Context context, Reading reading, glm::dvec2 pixels) {
+  reading.inMotion = reading.jitterDelta * pixels;
+  return context.motionJittered;
+}
+
+bool jitterInPictures(Context context, Signs signs, Reading reading) {
+  return jitterIn(context, reading, context.frame.size * glm::dvec2(signs));
+}
+
+bool jitterInClip(Context context, Signs signs, Reading reading) {
+  return jitterIn(context, reading, 0.5 * context.frame.size * glm::dvec2(signs));
+}
+
+bool jitterTimes(Context context, Signs signs, Reading reading) {
+  return jitterIn(context, reading, glm::dvec2(signs));
 }
 
 /// Motion that all pixels have beside the cameras', as jitter would give it.
@@ -156,12 +261,12 @@ bool scaledDepth(Context context, Signs, Reading reading) {
   constexpr double kLeastParallax = 0.1;  // Pixels.
   std::vector<double> inverse;
   for (const LintSample& sample : context.frame.samples) {
-    const glm::dvec2 parallax = context.frame.motionOf(sample) - motionOfRotation(context.frame, reading, sample);
+    const glm::dvec2 parallax = context.frame.motionOf(sample) - motionOfRotation(reading, sample);
     if (!(glm::length(parallax) > kLeastParallax)) continue;
-    inverse.push_back(inverseDepthFromMotion(context.frame, reading, sample) * depthOf(context.frame, reading, sample));
+    inverse.push_back(inverseDepthFromMotion(context.frame, reading, sample) * depthOf(reading, sample));
   }
   const double factor = median(inverse).value_or(0.0);
-  if (factor > 0.0) reading.depthScale = 1.0 / factor;
+  if (factor > 0.0) reading.fitted = reading.depthScale = 1.0 / factor;
   return factor > 0.0;
 }
 
@@ -199,12 +304,21 @@ std::vector<LintHypothesis> makeHypotheses() {
          {same, y, xy, x});
   addAll("motion-unit", inPixels, "motion is in pixels, not in the stated unit",
          "state so (WALR_MOTION_PIXELS), and negate an axis whose sign differs (motion_scale)", {same, y, xy, x});
+  add("motion-unit", inOtherPixels,
+      "motion is in pixels of a picture of another size, such as that of the output, or in a share of the picture",
+      "scale it to pixels of the picture that is denoised (motion_scale)")
+      .fits = true;
   add("motion-jitter", jitterTheOtherWay,
       "motion holds the difference of the two frames' jitter though stated to be without, or leaves it out",
       "state the other (motion_jittered), or make motion with or without jitter, as stated");
   add("jitter-sign", jitterNegated,
       "jitter is stated with the other sign: it is sample position minus pixel centre, y down",
       "negate the jitter that is handed over");
+  const std::string_view jitterUnit = "jitter is in another unit: it is in pixels of the picture that is denoised";
+  const std::string_view convertJitter = "hand over the jitter in pixels, y down";
+  addAll("jitter-unit", jitterTimes, jitterUnit, convertJitter, {glm::dvec3(0.5), glm::dvec3(2.0)});
+  addAll("jitter-unit", jitterInPictures, jitterUnit, convertJitter, {same, y});
+  addAll("jitter-unit", jitterInClip, jitterUnit, convertJitter, {same, y});
   add("jitter-missing", jitterUnknown, "motion holds the jitter of the images, but no jitter is handed over",
       "hand over the jitter in pixels, and state whether motion holds it (motion_jittered)")
       .alternates = true;
@@ -217,6 +331,16 @@ std::vector<LintHypothesis> makeHypotheses() {
         "space",
         "hand over the matrix from world to view space");
   }
+  for (const glm::dvec3& sign : {y, same}) {
+    LintHypothesis& upside =
+        add("picture-upside-down", upsideDown, "the images are handed over with their last row first",
+            "hand them over with their first row at the top, and motion with y down");
+    upside.signs = sign;
+    upside.ofPlaces = true;
+  }
+  add("view-position", withoutPosition, "the view matrices have no translation, as those of a world around the camera",
+      "hand over the camera's position in the matrices, or by itself (WalrFrame::origin, FrameDescription::origin)")
+      .fits = true;
   add("camera-previous", cameraPrevious,
       "the previous camera that is handed over is another one than that of the frame before", keepCamera);
   addAll("motion-missing", otherSigns, "the motion image was not written, or holds the motion of objects alone",
@@ -226,18 +350,25 @@ std::vector<LintHypothesis> makeHypotheses() {
   add("depth-unit", scaledDepth<Depth::Axis>,
       "depth and the view matrices are in different units, such as centimetres and metres",
       "write depth in the units of the view matrices")
-      .ofDepth = true;
+      .ofPlaces = true;
   add("depth-distance", depthAlongRay,
       "depth is the distance from the camera, as a ray's length, not along the view axis",
       "multiply it by the cosine of ray and view axis")
-      .ofDepth = true;
+      .ofPlaces = true;
   const std::string_view linearise = "state device depth and its projection (WALR_DEPTH_DEVICE), or make it linear";
+  for (const auto apply : {otherProjection<true, true>, otherProjection<true, false>, otherProjection<false, true>}) {
+    LintHypothesis& projection = add(
+        "projection", apply, "the projection has another field of view or aspect ratio than the images",
+        "hand over the projection with which the frame was rendered: its focal lengths are 1 / tan(half the vertical "
+        "field of view), and that divided by width / height");
+    projection.ofPlaces = projection.fits = true;
+  }
   add("depth-device", scaledDepth<Depth::Device>,
       "depth is that of a projection, 0 near and 1 far, not linear view depth", linearise)
-      .ofDepth = true;
+      .ofPlaces = true;
   add("depth-reversed", scaledDepth<Depth::Reversed>, "depth is that of a reversed projection, not linear view depth",
       linearise)
-      .ofDepth = true;
+      .ofPlaces = true;
   add("camera-late", cameraLate, "the camera that is handed over is that of the frame before",
       "hand over the camera with which the frame was rendered")
       .needsNext = true;
@@ -254,7 +385,7 @@ std::vector<LintHypothesis> makeHypotheses() {
   LintHypothesis& other = add("depth-other", depthUnknown,
                               "depth is another quantity, such as a mist or fog factor, or that of another frame",
                               "write linear view depth in the units of the view matrices");
-  other.fitsStated = other.ofDepth = true;
+  other.fitsStated = other.ofPlaces = true;
   return all;
 }
 

@@ -29,7 +29,8 @@ struct LintHypothesis {
   glm::dvec3 signs{1.0};    ///< Of the axes of motion (0: missing) or of view space.
   bool needsNext = false;   ///< `apply` needs the next frame.
   bool fitsStated = false;  ///< It holds wherever the stated reading does.
-  bool ofDepth = false;     ///< It reads another depth, so that motion's third channel tells nothing.
+  bool ofPlaces = false;    ///< It reads other positions from depth, of which motion.z and normals tell nothing.
+  bool fits = false;  ///< `apply` fits numbers to samples: only for frames that the stated reading does not explain.
   bool alternates = false;  ///< What motion holds sums up to little over frames, as jitter does.
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "passes/stage/inspection.h"
 #include "shaders/shaders.h"
@@ -41,6 +42,10 @@ void LintCounts::add(std::span<const std::uint32_t> words) {
   const bool halfLit = std::ranges::any_of(
       kHalves, [&](const auto& half) { return sum(kLintLit, half) == 0 && sum(kLintDark, half) >= kLeastLintSample; });
   halfLitFrames_ += halfLit ? 1 : 0;
+}
+
+std::uint64_t LintCounts::litPixels() const {
+  return std::accumulate(&sums_[kLintLit], &sums_[kLintLit] + 4, std::uint64_t{0});
 }
 
 std::vector<LintSample> lintSamples(std::span<const std::uint32_t> words, fg::Extent extent, float skyDepth) {

@@ -57,6 +57,8 @@ class LintCounts {
   /// Add the words of a frame.
   void add(std::span<const std::uint32_t> words);
   [[nodiscard]] std::uint64_t operator[](std::uint32_t word) const { return sums_[word]; }
+  /// Surfaces whose light is not 0.
+  [[nodiscard]] std::uint64_t litPixels() const;
   /// Frames with light, and those of them in which every second pixel, column or row has none.
   [[nodiscard]] std::uint64_t litFrames() const { return litFrames_; }
   [[nodiscard]] std::uint64_t halfLitFrames() const { return halfLitFrames_; }

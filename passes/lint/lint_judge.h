@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "passes/conventions/inputs.h"
+#include "passes/lint/lint_edges.h"
 #include "passes/lint/lint_finding.h"
 #include "passes/lint/lint_inputs.h"
 #include "passes/lint/lint_normals.h"
@@ -18,9 +19,9 @@ namespace walr {
 class LintJudge {
  public:
   /// All must outlive the judge.
-  LintJudge(const InputConventions& conventions, const LintCounts& counts, const LintNormals& normals,
-            const LintMotion& motion)
-      : conventions_(conventions), counts_(counts), normals_(normals), motion_(motion) {}
+  LintJudge(const InputConventions& conventions, const LintCounts& counts, const LintEdges& edges,
+            const LintNormals& normals, const LintMotion& motion)
+      : conventions_(conventions), counts_(counts), edges_(edges), normals_(normals), motion_(motion) {}
 
   std::vector<LintFinding> take() { return std::move(found_); }
   void add(LintFinding finding) { found_.push_back(std::move(finding)); }
@@ -35,11 +36,14 @@ class LintJudge {
  private:
   void judgeMistake(const LintScores& scores, std::size_t best);
   void judgeCuts();
+  /// Frames that come again, or in the reverse order. @returns whether they do
+  bool judgeOrder();
   void judgeMotionDepth(const LintScore& score);
   [[nodiscard]] bool has(std::string_view name) const;
 
   const InputConventions& conventions_;
   const LintCounts& counts_;
+  const LintEdges& edges_;
   const LintNormals& normals_;
   const LintMotion& motion_;
   std::vector<LintFinding> found_;

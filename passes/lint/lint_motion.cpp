@@ -36,21 +36,36 @@ void LintJudge::judgeCuts() {
   const LintScores& cuts = motion_.cuts();
   // At a cut motion may be anything, 0 for instance, so that other mistakes would be found by accident.
   const std::optional<std::size_t> best = cuts.best();
-  if (best && lintHypotheses()[*best].name == "view-inverted") {
-    return judgeMistake(cuts, *best);
-  }
-  if (!isMost(cuts.stated.movingFits, cuts.stated.moving)) return;
+  const std::string_view name = best ? lintHypotheses()[*best].name : "";
+  if (name == "view-inverted" || name == "view-position") return judgeMistake(cuts, *best);
+  if (judgeOrder() || !isMost(cuts.stated.movingFits, cuts.stated.moving)) return;
   const std::string what =
       "every frame in which the camera moves is a cut, though motion leads to the frame before on " +
       share(cuts.stated.movingFits, cuts.stated.moving, "samples that move");
-  if (motion_.foreignCuts() > 0) {
-    const bool still = motion_.stillCuts() == motion_.foreignCuts();
-    const std::string_view name = still ? "camera-still" : "camera-previous";
-    const LintHypothesis& mistake = *std::ranges::find(lintHypotheses(), name, &LintHypothesis::name);
-    return add({name, what, mistake.cause, mistake.wayOut});
+  if (const LintOrder& order = motion_.order(); order.foreign > 0) {
+    const bool still = order.still == order.foreign;
+    const LintHypothesis& mistake =
+        *std::ranges::find(lintHypotheses(), still ? "camera-still" : "camera-previous", &LintHypothesis::name);
+    return add({mistake.name, what, mistake.cause, mistake.wayOut});
   }
   add({"cut-every-frame", what, "the history is reset in every frame",
        "reset it (WALR_FRAME_RESET_HISTORY, or \"cut\" of a sequence) only where the camera jumps"});
+}
+
+bool LintJudge::judgeOrder() {
+  const LintOrder& order = motion_.order();
+  const auto most = [&](std::uint64_t part) { return part >= 3 && 2 * part > order.frames; };
+  const std::string of = " of " + std::to_string(order.frames) + " frames";
+  if (most(order.repeated)) {
+    add({"frames-repeated",
+         "the camera is that of the frame before, but moves by its own word, in " + std::to_string(order.repeated) + of,
+         "the same frame was handed over again", "render every frame, and hand each over once"});
+  } else if (most(order.reversed)) {
+    add({"frames-reversed",
+         "the camera is the previous one of the frame before in " + std::to_string(order.reversed) + of,
+         "frames are handed over in the reverse order", "hand over the earliest frame first"});
+  }
+  return most(order.repeated) || most(order.reversed);
 }
 
 void LintJudge::judgeMotionDepth(const LintScore& score) {
@@ -81,6 +96,14 @@ void LintJudge::judgeMotion() {
   const std::optional<std::size_t> best = scores.best();
   if (!best && motion_.cutsOnly()) return judgeCuts();
   if (best) judgeMistake(scores, *best);
+  if (const LintOrder& order = motion_.order();
+      !best && !judgeOrder() && order.foreign >= 3 && 2 * order.foreign > order.frames) {
+    const LintHypothesis& mistake = *std::ranges::find(lintHypotheses(), "camera-previous", &LintHypothesis::name);
+    add({mistake.name,
+         "the previous camera is not that of the frame before in " + std::to_string(order.foreign) + " of " +
+             std::to_string(order.frames) + " frames",
+         mistake.cause, mistake.wayOut});
+  }
   judgeMotionDepth(best ? scores.mistakes[*best] : scores.stated);
 }
 

@@ -70,6 +70,10 @@ void LintNormals::add(const LintFrame& frame, const LintSample& sample) {
   for (std::size_t mistake = 0; mistake < kMistakes; ++mistake) {
     glm::dvec3 assumed = stated;
     if (mistake == OtherSpace) assumed = inView(sample.normal, !world_);
+    const glm::dvec3& n = sample.normal;
+    if (mistake == ZUp) assumed = inView({n.x, n.z, -n.y}, world_);
+    if (mistake == YUp) assumed = inView({n.x, -n.z, n.y}, world_);
+    if (mistake == ExchangedYZ) assumed = inView({n.x, n.z, n.y}, world_);
     if (mistake == FlippedY) assumed = inView(sample.normal * glm::dvec3(1, -1, 1), world_);
     if (mistake == InvertedView && world_) assumed = glm::normalize(sample.normal * view);
     const bool ofDepth = mistake == ReversedDepth || mistake == DeviceDepth || mistake == Distance;
@@ -97,10 +101,14 @@ void LintJudge::judgeNormals() {
     std::string_view cause;
     std::string_view wayOut;
   };
+  static constexpr Cause kAxes{"normal-axes", "y and z of normals are exchanged, as in a world with another axis up",
+                               "exchange them, and negate one of them if the sense of rotation changes"};
   static constexpr std::array<Cause, LintNormals::kMistakes> kCauses{{
       {"normal-space", "normals are in world space though stated in view space, or the other way about",
        "state the other space (WalrConventions::normal_space, InputConventions::normal)"},
-      {"normal-y", "normals have y down, as those of a picture or of another handedness", "negate their y"},
+      {"normal-y",
+       "normals have y down, as those of a picture or of another handedness, or all images have their last row first",
+       "negate the y of normals, or hand over all images with their first row at the top"},
       {"depth-reversed", "depth is that of a reversed projection, not linear view depth",
        "state device depth and its projection (WALR_DEPTH_DEVICE), or make it linear"},
       {"depth-device", "depth is that of a projection, 0 near and 1 far, not linear view depth",
@@ -109,12 +117,15 @@ void LintJudge::judgeNormals() {
        "multiply it by the cosine of ray and view axis"},
       {"view-inverted", "the view matrix that is handed over is its inverse, which leads from view to world space",
        "hand over the matrix from world to view space"},
+      kAxes,
+      kAxes,
+      kAxes,
   }};
   if (isMost(counts_[kLintNormalNotUnit], counts_[kLintSurfaces])) return;  // A wrong encoding explains them.
   const std::optional<std::size_t> mistake = motion_.continued().best();
-  // Where the camera moves, motion tells more about depth than slopes do. A wrong view matrix turns normals, too.
+  // Where the camera moves, motion tells more about positions than slopes do. A wrong view matrix turns normals, too.
   const bool world = conventions_.normal == InputConventions::Space::World;
-  if (mistake && lintHypotheses()[*mistake].ofDepth) return;
+  if (mistake && lintHypotheses()[*mistake].ofPlaces) return;
   if (mistake && world && lintHypotheses()[*mistake].name.starts_with("view-")) return;
   const std::uint64_t tested = normals_.tested();
   const std::size_t best = normals_.best();

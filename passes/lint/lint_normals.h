@@ -10,8 +10,18 @@ namespace walr {
 /// Compares shading normals with the slope of depth, under mistakes in either.
 class LintNormals {
  public:
-  enum Mistake : std::uint8_t { OtherSpace, FlippedY, ReversedDepth, DeviceDepth, Distance, InvertedView };
-  static constexpr std::size_t kMistakes = 6;
+  enum Mistake : std::uint8_t {
+    OtherSpace,
+    FlippedY,
+    ReversedDepth,
+    DeviceDepth,
+    Distance,
+    InvertedView,
+    ZUp,
+    YUp,
+    ExchangedYZ
+  };
+  static constexpr std::size_t kMistakes = 9;
 
   explicit LintNormals(const InputConventions& conventions)
       : world_(conventions.normal == InputConventions::Space::World) {}

@@ -47,7 +47,7 @@ std::vector<Stated> readAsStated(const LintFrame& frame, const LintReading& stat
     const glm::dvec2 given = frame.motionOf(sample);
     if (!std::isfinite(given.x) || !std::isfinite(given.y)) continue;
     const LintPrediction seen = predict(frame, stated, sample);
-    const double parallax = glm::length(seen.motion - motionOfRotation(frame, stated, sample));
+    const double parallax = glm::length(seen.motion - motionOfRotation(stated, sample));
     read.push_back({&sample, given, seen, agreement(given, seen), parallax > 2.0 * glm::length(seen.tolerance)});
   }
   return read;
@@ -69,7 +69,7 @@ void addSample(LintScore& score, const LintHypothesis& mistake, const Stated& st
   score.tested += differs || poorer ? 1 : 0;
   score.better += differs && fit > stated.agreement + kFits ? 1 : 0;
   score.worse += poorer || (differs && stated.agreement > fit + kFits) ? 1 : 0;
-  if (fit > kFits && !mistake.ofDepth) countDepth(score, *stated.sample, seen.away);
+  if (fit > kFits && !mistake.ofPlaces) countDepth(score, *stated.sample, seen.away);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ void addSample(LintScore& score, const LintHypothesis& mistake, const Stated& st
 bool LintScore::explains(const LintHypothesis& mistake) const {
   if (better < kLeastLintSample || 2 * better <= tested || better <= 20 * worse) return false;
   if (mistake.alternates && jitterLength <= 2.0 * glm::length(jitterSum)) return false;
-  return mostDepthScale < 1.1 * leastDepthScale;  // A unit stays the same.
+  return mostFitted < 1.1 * leastFitted;  // A unit stays the same.
 }
 
 std::optional<std::size_t> LintScores::best() const {
@@ -103,6 +103,20 @@ std::string LintScores::rivals(std::size_t best) const {
   return names;
 }
 
+void LintOrder::add(const FrameDescription& last, const FrameDescription& camera) {
+  // From one camera's view space to another's: a host may move the origin of its matrices.
+  const auto same = [&](const glm::mat4& a, const glm::dvec3& aOrigin, const glm::mat4& b, const glm::dvec3& bOrigin) {
+    return sameView(glm::mat4(viewFromView(camera, glm::dmat4(a), aOrigin)),
+                    glm::mat4(viewFromView(camera, glm::dmat4(b), bOrigin)));
+  };
+  ++frames;
+  if (same(camera.previousView, camera.previousOrigin, last.view, last.origin)) return;
+  ++foreign;
+  still += same(camera.previousView, camera.previousOrigin, camera.view, camera.origin) ? 1 : 0;
+  repeated += same(camera.view, camera.origin, last.view, last.origin) ? 1 : 0;
+  reversed += same(camera.view, camera.origin, last.previousView, last.previousOrigin) ? 1 : 0;
+}
+
 void LintMotion::score(LintScores& scores, const LintContext& context) const {
   const LintFrame& frame = context.frame;
   const LintReading stated = statedReading(frame, context.motionJittered);
@@ -118,10 +132,13 @@ void LintMotion::score(LintScores& scores, const LintContext& context) const {
       if (sample.agreement > kFits) countDepth(scores.stated, *sample.sample, sample.seen.away);
     }
   }
+  const auto fitting = std::ranges::count_if(samples, [](const Stated& sample) { return sample.agreement > kFits; });
+  const bool explained = 10 * std::size_t(fitting) > 9 * samples.size();
   for (std::size_t i = 0; i < lintHypotheses().size(); ++i) {
     const LintHypothesis& mistake = lintHypotheses()[i];
     LintReading reading = stated;
-    if (mistake.needsNext != withNext || !mistake.apply(context, mistake.signs, reading)) continue;
+    if (mistake.needsNext != withNext || (mistake.fits && explained)) continue;
+    if (!mistake.apply(context, mistake.signs, reading)) continue;
     LintScore& score = scores.mistakes[i];
     score.jitterSum += reading.inMotion;
     score.jitterLength += glm::length(reading.inMotion);
@@ -134,8 +151,8 @@ void LintMotion::score(LintScores& scores, const LintContext& context) const {
       addSample(score, mistake, sample, seen);
     }
     if (2 * (score.better - better) <= score.tested - tested) continue;
-    score.leastDepthScale = std::min(score.leastDepthScale, reading.depthScale);
-    score.mostDepthScale = std::max(score.mostDepthScale, reading.depthScale);
+    score.leastFitted = std::min(score.leastFitted, reading.fitted);
+    score.mostFitted = std::max(score.mostFitted, reading.fitted);
   }
 }
 
@@ -152,6 +169,7 @@ void LintMotion::countRounding(const LintFrame& frame) {
 void LintMotion::add(LintFrame frame) {
   countRounding(frame);
   const LintFrame* const last = last_ ? &*last_ : nullptr;
+  if (last != nullptr) order_.add(last->camera, frame.camera);
   const bool jittered = conventions_.motionJittered;
   if (frame.continues) {
     score(continued_, {.frame = frame, .last = last, .motionJittered = jittered});
@@ -163,9 +181,6 @@ void LintMotion::add(LintFrame frame) {
     frame.camera.previousView = last->camera.view;
     frame.camera.previousOrigin = last->camera.origin;
     score(cuts_, {.frame = frame, .last = last, .motionJittered = jittered});
-    const bool foreign = !sameView(stated.previousView, last->camera.view);
-    foreignCuts_ += foreign ? 1 : 0;
-    stillCuts_ += foreign && sameView(stated.previousView, stated.view) ? 1 : 0;
     frame.camera = stated;
   }
   last_ = std::move(frame);

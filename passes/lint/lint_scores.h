@@ -30,9 +30,9 @@ struct LintScore {
   // Of `LintReading::inMotion`, over frames:
   glm::dvec2 jitterSum{0.0};
   double jitterLength = 0.0;
-  // `LintReading::depthScale` in frames that it explains:
-  double leastDepthScale = std::numeric_limits<double>::max();
-  double mostDepthScale = 0.0;
+  // `LintReading::fitted` in frames that it explains:
+  double leastFitted = std::numeric_limits<double>::max();
+  double mostFitted = 0.0;
 
   /// Whether the reading explains what the stated one does not: most of what tells the two apart, and twenty times
   /// as much as the reverse. A mistake shows on all surfaces that stand still; they may be few, but those that fit by
@@ -53,6 +53,17 @@ struct LintScores {
   [[nodiscard]] std::string rivals(std::size_t best) const;
 };
 
+/// Frames after another one by their cameras.
+struct LintOrder {
+  std::uint64_t frames = 0;
+  std::uint64_t foreign = 0;   ///< The previous camera is not that of the frame before,
+  std::uint64_t still = 0;     ///< but this frame's,
+  std::uint64_t repeated = 0;  ///< or this frame's camera is that of the frame before,
+  std::uint64_t reversed = 0;  ///< or is the previous camera of the frame before.
+
+  void add(const FrameDescription& last, const FrameDescription& camera);
+};
+
 /// Compares motion with cameras and depth.
 class LintMotion {
  public:
@@ -66,9 +77,7 @@ class LintMotion {
   [[nodiscard]] const LintScores& cuts() const { return cuts_; }
   /// Whether every frame in which the camera moves is a cut, of more than a few.
   [[nodiscard]] bool cutsOnly() const { return continued_.stated.moving == 0 && cuts_.frames >= 3; }
-  /// Cuts whose stated previous camera is not the last frame's, and those of them where it is this frame's.
-  [[nodiscard]] std::uint64_t foreignCuts() const { return foreignCuts_; }
-  [[nodiscard]] std::uint64_t stillCuts() const { return stillCuts_; }
+  [[nodiscard]] const LintOrder& order() const { return order_; }
   /// Samples, and those that the rounding of the view matrix moves by more than a tenth of a pixel.
   [[nodiscard]] std::uint64_t surfaces() const { return surfaces_; }
   [[nodiscard]] std::uint64_t rounded() const { return rounded_; }
@@ -81,8 +90,7 @@ class LintMotion {
   std::optional<LintFrame> last_;
   LintScores continued_;
   LintScores cuts_;
-  std::uint64_t foreignCuts_ = 0;
-  std::uint64_t stillCuts_ = 0;
+  LintOrder order_;
   std::uint64_t surfaces_ = 0;
   std::uint64_t rounded_ = 0;
 };

@@ -37,6 +37,14 @@ void LintJudge::judgeDepth() {
     add({"depth-empty", "depth is 0 on " + share(counts_[kLintDepthZero], pixels, "pixels") + " and nowhere a surface",
          "the depth image was not written, or is another one", "write depth before the denoiser runs"});
   }
+  // Of right depth, up to 5 % lie between: far leaves that are smaller than pixels. Of filtered depth 40 % and more do.
+  if (edges_.edges() >= kLeastLintSample && 5 * edges_.between() > edges_.edges()) {
+    add({"depth-filtered",
+         "depth lies between that of both sides on " + share(edges_.between(), edges_.edges(), "edges of surfaces"),
+         "a pixel filter, anti-aliasing or a resampling mixed the depths of several surfaces, or of a surface and the "
+         "sky",
+         "write the depth of one sample of the pixel, and let no filter change it"});
+  }
   if (pixels > 0 && counts_[kLintSurfaces] == 0 && found_.size() == before) {
     add({"sky-only", "no pixel shows a surface: all depths are from the sky depth on, or not finite",
          "depth is in other units than the sky depth", "state a sky depth beyond the scene's farthest surface"});
@@ -97,7 +105,8 @@ void LintJudge::judgeValues() {
          "sample such lights directly, or bound what a path may bring; methods with antilag hold such samples back "
          "(accumulation.fireflies)"});
   }
-  if (conventions_.light.hasAlpha() && counts_[kLintPixels] > 0 && counts_[kLintSamples] == 0) {
+  const bool noSamples = conventions_.light.hasAlpha() && counts_[kLintPixels] > 0 && counts_[kLintSamples] == 0;
+  if (noSamples) {
     add({"lighting-empty", "no texel of the lighting has an alpha above 0", "the lighting's alpha was not written",
          "write 1, or the number of samples, where there is one, or do not state that the lighting has alpha "
          "(WalrConventions::light_masked and light_counted)"});
@@ -111,6 +120,11 @@ void LintJudge::judgeValues() {
          "alpha (light_masked)"});
   }
   const std::uint64_t surfaces = counts_[kLintSurfaces];
+  if (!noSamples && surfaces >= kLeastLintSample && counts_.litPixels() == 0) {
+    add({"lighting-zero", "the lighting is 0 on all " + std::to_string(surfaces) + " pixels with a surface",
+         "the lighting image was not written, or is another one, or the scene has no such light",
+         "write the light before the denoiser runs"});
+  }
   if (isMost(counts_[kLintNormalZero], surfaces)) {
     add({"normal-empty", "normals are zero on " + share(counts_[kLintNormalZero], surfaces, "pixels with a surface"),
          "the normal image was not written, or is another one",

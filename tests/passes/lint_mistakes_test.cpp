@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -122,6 +123,21 @@ glm::mat4 mirror(glm::vec3 signs) {
   return glm::scale(glm::mat4(1.0F), signs);
 }
 
+/// Store all images with their last row first.
+void turnUpsideDown(Frames& frames) {
+  for (HostInput& host : frames) {
+    const HostFrame upright = host.frame;
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      const glm::ivec2 q(p.x, kSize.y - 1 - p.y);
+      host.frame.depth[p] = upright.depth[q];
+      host.frame.normal[p] = upright.normal[q];
+      host.frame.motion[p] = upright.motion[q];
+      host.frame.albedo[p] = upright.albedo[q];
+      host.frame.lighting[p] = upright.lighting[q];
+    });
+  }
+}
+
 bool showsInMotion(const Kind& kind) {
   return kind.moves() || kind.jittered;  // Jittered images move while the camera is still.
 }
@@ -220,6 +236,67 @@ std::vector<Mistake> mistakes() {
       {"motion in clip space", motion({2.0 / size.x, -2.0 / size.y, 1}), unit},
       {"motion in pixels, stated in pictures",
        cameras([](FrameDescription& camera, std::size_t) { camera.motionScale *= glm::vec2(kSize); }), unit},
+      {"motion in pixels of twice the size", motion({2, 2, 1}), unit},
+      {"motion in pixels of half the size",
+       [](const Kind& kind, Frames& frames, InputConventions&) {
+         if (kind.moves()) scaleMotion(frames, {0.5, 0.5, 1});
+       },
+       unit, moves},
+      {"images upside down",
+       [](const Kind&, Frames& frames, InputConventions&) { turnUpsideDown(frames); },
+       {"picture-upside-down"},
+       always,
+       {"normal-y"}},
+      {"images upside down, and motion with them",
+       [](const Kind& kind, Frames& frames, InputConventions&) {
+         turnUpsideDown(frames);
+         if (kind.moves()) scaleMotion(frames, {1, -1, 1});
+       },
+       {"picture-upside-down"},
+       always,
+       {"normal-y"}},
+      {"another field of view",
+       cameras([](FrameDescription& camera, std::size_t) {
+         for (glm::mat4* projection : {&camera.projection, &camera.previousProjection}) {
+           (*projection)[0][0] *= 1.3F;
+           (*projection)[1][1] *= 1.3F;
+         }
+       }),
+       {"projection"},
+       moves},
+      {"the aspect ratio of a square",
+       cameras([](FrameDescription& camera, std::size_t) {
+         for (glm::mat4* projection : {&camera.projection, &camera.previousProjection})
+           (*projection)[0][0] = (*projection)[1][1];
+       }),
+       {"projection"},
+       moves},
+      {"views without position",
+       cameras([](FrameDescription& camera, std::size_t) {
+         for (glm::mat4* view : {&camera.view, &camera.previousView}) (*view)[3] = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
+       }),
+       {"view-position"},
+       walks},
+      {"the same frame again",
+       [](const Kind&, Frames& frames, InputConventions&) { std::ranges::fill(frames, HostInput(frames[1])); },
+       {"frames-repeated"},
+       moves},
+      {"the same frame again, each a cut",
+       [](const Kind&, Frames& frames, InputConventions&) {
+         std::ranges::fill(frames, HostInput(frames[1]));
+         resetAll(frames);
+       },
+       {"frames-repeated"},
+       showsInMotion,
+       {"cut-every-frame"}},
+      {"frames from the last to the first, each a cut",
+       [](const Kind&, Frames& frames, InputConventions&) {
+         std::ranges::reverse(frames);
+         resetAll(frames);
+       },
+       {"frames-reversed"},
+       showsInMotion,
+       {"cut-every-frame"}},
       {"motion missing", motion({0, 0, 1}), {"motion-x-missing", "motion-y-missing"}, showsInMotion, {"motion-jitter"}},
       {"motion to the next frame",
        [](const Kind& kind, Frames& frames, InputConventions&) {
@@ -248,6 +325,21 @@ std::vector<Mistake> mistakes() {
        {"jitter-sign"},
        jittered,
        direction},
+      {"jitter of a picture of twice the size",
+       cameras([](FrameDescription& camera, std::size_t) {
+         camera.jitter *= 2.0F;
+         camera.previousJitter *= 2.0F;
+       }),
+       {"jitter-unit"},
+       jittered,
+       unit},
+      {"jitter in clip space",
+       cameras([](FrameDescription& camera, std::size_t) {
+         for (glm::vec2* jitter : {&camera.jitter, &camera.previousJitter})
+           *jitter *= glm::vec2(2, -2) / glm::vec2(kSize);
+       }),
+       {"jitter-unit"},
+       jittered},
       {"jitter of the last frame",
        [](const Kind& kind, Frames& frames, InputConventions&) {
          if (!kind.jittered) return;
@@ -279,6 +371,20 @@ std::vector<Mistake> mistakes() {
          conventions.normal = conventions.normal == Space::World ? Space::View : Space::World;
        },
        {"normal-space"},
+       always},
+      {"y and z of normals exchanged",
+       [](const Kind&, Frames& frames, InputConventions&) {
+         for (HostInput& host : frames) {
+           forEachPixel(kSize, [&](glm::ivec2 p) { std::swap(host.frame.normal[p].y, host.frame.normal[p].z); });
+         }
+       },
+       {"normal-axes"},
+       always},
+      {"no light",
+       [](const Kind&, Frames& frames, InputConventions&) {
+         for (HostInput& host : frames) host.frame.lighting = reference::Image<glm::dvec3>(kSize, glm::dvec3(0.0));
+       },
+       {"lighting-zero"},
        always},
       {"light on a checkerboard",
        [](const Kind&, Frames& frames, InputConventions&) {

@@ -106,6 +106,17 @@ void moveAway(HostInput& host, bool statesOrigin) {
   host.frame.constants = frameConstants(host.camera, kExtent);
 }
 
+/// Every second group of four columns is five times as far away, in the same directions.
+/// @param filtered  a pixel has the mean of its depth and that of the pixel on the left
+void showBars(HostFrame& frame, bool filtered) {
+  forEachPixel(kSize, [&](glm::ivec2 p) { frame.depth[p] *= p.x / 4 % 2 == 0 ? 1.0 : 5.0; });
+  if (!filtered) return;
+  const reference::Image<double> sharp = frame.depth;
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    if (p.x > 0) frame.depth[p] = 0.5 * (sharp[p] + sharp[p - glm::ivec2(1, 0)]);
+  });
+}
+
 std::vector<Case> cases() {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr auto kWorld = InputConventions::Space::World;
@@ -199,6 +210,12 @@ std::vector<Case> cases() {
       {"depth of a projection, while the camera moves", {"depth-device"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
          f.depth[p] = 1.0 - 0.1 / f.depth[p];
        })},
+      {"good, bars in front of a wall", {}, [](HostInput& h) { showBars(h.frame, false); }, false, true},
+      {"depth filtered across the edges of bars",
+       {"depth-filtered"},
+       [](HostInput& h) { showBars(h.frame, true); },
+       false,
+       true},
       {"albedo missing", {"albedo-empty"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.albedo[p] = {}; })},
       {"albedo above 1", {"albedo-range"}, eachPixel([](HostFrame& f, glm::ivec2 p) { f.albedo[p] *= 3.0; })},
       {"albedo in the lighting", {"albedo-in-lighting"}, eachPixel([](HostFrame& f, glm::ivec2 p) {
