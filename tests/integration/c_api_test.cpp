@@ -1,6 +1,7 @@
 // The C API gives the same pixels and histories as our own executor.
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include <glm/packing.hpp>
 
@@ -184,19 +185,38 @@ TEST_F(CApi, LogsEachFindingOnce) {
   EXPECT_EQ(walr_get_findings(run.denoiser(), &count, nullptr), WALR_ERROR_WRONG_ORDER);
 }
 
-// The most frequent mistake of engines, which marks no frame or every frame as a cut.
-TEST_F(CApi, APreviousCameraThatIsThisOneIsToldInTenFrames) {
-  for (const std::uint32_t flags : {0U, std::uint32_t(WALR_FRAME_RESET_HISTORY)}) {
+// The first one is the most frequent mistake of engines, which mark no frame or every frame as a cut.
+TEST_F(CApi, MistakesAreToldInTenFrames) {
+  struct Mistake {
+    const char* finding;
+    std::function<void(HostFrame&, FrameDescription&)> make;
+    std::uint32_t flags = 0;
+  };
+  const auto previousIsThis = [](HostFrame&, FrameDescription& camera) { camera.previousView = camera.view; };
+  const Mistake mistakes[] = {
+      {"camera-still", previousIsThis},
+      {"camera-still", previousIsThis, WALR_FRAME_RESET_HISTORY},
+      {"lighting-zero",
+       [](HostFrame& frame, FrameDescription&) {
+         frame.lighting = reference::Image<glm::dvec3>(kSize, glm::dvec3(0.0));
+       }},
+      {"view-position",
+       [](HostFrame&, FrameDescription& camera) {
+         for (glm::mat4* view : {&camera.view, &camera.previousView}) (*view)[3] = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
+       }},
+  };
+  for (const Mistake& mistake : mistakes) {
     HostedRun::Options options;
     options.lint = true;
     HostedRun run(device(), "walr", kSize, options);
     for (std::uint32_t i = 0; i < 10; ++i) {
       FrameDescription camera = walkingCamera(i, kSize);
-      run.fill(renderFrame(sphere(), camera, kSize));
-      camera.previousView = camera.view;
-      run.frame(camera, flags);
+      HostFrame frame = renderFrame(sphere(), camera, kSize);
+      mistake.make(frame, camera);
+      run.fill(frame);
+      run.frame(camera, mistake.flags);
     }
-    EXPECT_EQ(findingsOf(run.denoiser()), std::vector<std::string>{"camera-still"}) << flags;
+    EXPECT_EQ(findingsOf(run.denoiser()), std::vector<std::string>{mistake.finding}) << mistake.flags;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -194,6 +195,13 @@ TEST_F(ProgramTest, LintNamesTheMistakeOfASequence) {
              for (int c = 0; c < 3; ++c) frame.indirect.at(x, y, c) = 0.0F;
            }
          }
+       }},
+      {"lighting-zero", [](Frame& frame) { std::ranges::fill(frame.indirect.values(), 0.0F); }},
+      {"projection", [](Frame& frame) { frame.camera.projection[0][0] = frame.camera.projection[1][1]; }},
+      {"frames-repeated",
+       [&](Frame& frame) {
+         const int number = std::exchange(frame, right.read(1)).number;
+         frame.number = number;
        }},
       {"depth-unit",
        [](Frame& frame) {
