@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framegraph/vulkan/staged_image.h"
+#include "passes/lint/lint_inputs.h"
 #include "passes/stage/inspection.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/host/shaders/view_constants.h"
@@ -188,6 +189,11 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
                               .objectId = host.objectId.texture,
                               .frame = host.frameConstants,
                               .conventions = {.light = light}};
+  if (view.lint) {
+    const fg::Buffer counts = graph.import("lint counters", fg::BufferDesc{kLintBytes}, fg::vk::kOverwritable);
+    host.lint = addLintInputs(graph, inputs, counts);
+    graph.exported(*host.lint, fg::vk::kReadable);
+  }
   host.denoised = method.add(graph, inputs, declareTarget(graph, "denoised", colour, targets.denoised));
   host.composite =
       addComposite(graph, "composite", host.denoised, {host.direct.texture, host.albedo.texture, host.emission.texture},

@@ -28,6 +28,7 @@ struct HostView {
   Kind kind = Kind::Denoised;
   std::string texture = {};      ///< Name of the texture, for `Kind::Texture`.
   Denoiser* compared = nullptr;  ///< The method on the right, for `Kind::Compare`; must live while graphs are declared.
+  bool lint = false;             ///< Check the inputs, too.
 
   /// Whether this view shows the traced light.
   [[nodiscard]] bool needsNoisy() const { return kind == Kind::Noisy || kind == Kind::Split; }
@@ -57,6 +58,7 @@ struct HostGraph {
   UploadedPicture emission;
   std::optional<UploadedPicture> referenceIndirect;
   std::optional<UploadedPicture> referenceDirect;
+  std::optional<fg::Buffer> lint;  ///< With `HostView::lint`: what `InputLinter` reads, as `fg::vk::kReadable`.
   fg::Buffer frameConstants;
   fg::Buffer viewConstants;
   fg::Texture denoised;   ///< RGBA16F: the output of the method.

@@ -29,6 +29,8 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
                   "First and last frame of the scene's animation; default: in a window all of it, otherwise 0-11")
       ->type_name("A-B");
   program.add_flag("--once", options.once, "In a window: stop after the last frame instead of starting again");
+  program.add_flag("--lint", options.lint,
+                   "In a window: check the inputs of the denoiser, and list below the panel what looks wrong");
   program
       .add_option("--size", options.size,
                   "Size of the image in pixels, 1 to 16384 each; default: in a window on a discrete or integrated GPU "

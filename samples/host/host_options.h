@@ -32,6 +32,7 @@ struct HostOptions {
   bool headless = false;
   bool exr = false;
   bool once = false;
+  bool lint = false;
   bool reloadShaders = false;  ///< Only with the CMake option WALR_RELOAD_SHADERS.
 };
 

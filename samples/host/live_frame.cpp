@@ -20,6 +20,14 @@ HostTargets shownTarget(fg::Extent extent) {
   return targets;
 }
 
+/// What was read back of the frame last recorded with a slot.
+std::vector<std::uint32_t> wordsOf(const fg::vk::StagedBuffer& buffer, std::uint32_t slot) {
+  const std::span<const std::byte> bytes = buffer.staging(slot);
+  std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
+  std::ranges::copy(bytes, std::as_writable_bytes(std::span(words)).begin());
+  return words;
+}
+
 }  // namespace
 
 ShownPicture::ShownPicture(const GpuDevice& device, fg::Extent extent)
@@ -55,6 +63,16 @@ bool LiveFrame::update(Denoiser& method, const HostView& view) {
   return true;
 }
 
+std::optional<fg::vk::StagedBuffer> LiveFrame::readBack(DeviceGraph& device, const HostGraph& host,
+                                                        const std::optional<fg::Buffer>& buffer) const {
+  if (!buffer) return std::nullopt;
+  const fg::ResourceDecl& declared = host.graph.desc().resources[buffer->resource];
+  fg::vk::StagedBuffer made(device_.device().context(), std::get<fg::BufferDesc>(declared.desc),
+                            device.executor().usage(*buffer), framesInFlight_, declared.name);
+  device.executor().bind(*buffer, made.handle());
+  return made;
+}
+
 void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
   // A graph that has recorded no frame has no histories of its own: the new graph takes over those of its predecessor.
   const bool recorded = declared() && running_->frames > 0;
@@ -63,15 +81,15 @@ void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
   DeviceGraph device(device_, host.graph, framesInFlight_,
                      start == Start::FromHistory && before != nullptr ? &before->device : nullptr);
   device.executor().bind(host.display, picture_.external());
-  std::optional<fg::vk::StagedBuffer> rays;
-  if (host.rays) {
-    const fg::ResourceDecl& declared = host.graph.desc().resources[host.rays->resource];
-    rays.emplace(device_.device().context(), std::get<fg::BufferDesc>(declared.desc),
-                 device.executor().usage(*host.rays), framesInFlight_, declared.name);
-    device.executor().bind(*host.rays, rays->handle());
-  }
+  std::optional<fg::vk::StagedBuffer> rays = readBack(device, host, host.rays);
+  std::optional<fg::vk::StagedBuffer> counts = readBack(device, host, host.lint);
   if (recorded) predecessor_ = std::move(running_);
-  running_ = std::make_unique<Running>(Running{std::move(host), std::move(device), std::move(rays)});
+  running_ = std::make_unique<Running>(Running{.host = std::move(host),
+                                               .device = std::move(device),
+                                               .rays = std::move(rays),
+                                               .counts = std::move(counts),
+                                               .linter = InputLinter({.light = light_}),
+                                               .checked = std::vector<std::optional<Checked>>(framesInFlight_)});
 }
 
 void LiveFrame::changeScene(const gpu_render::GpuScene* scene) {
@@ -90,7 +108,13 @@ void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, co
   }
   uploadFrame(running_->device.executor(), running_->host, frame, constants);
   running_->device.executor().record(recorded.commandBuffer, recorded.slot);
-  if (running_->rays) running_->rays->recordReadback(recorded.commandBuffer, recorded.slot);
+  for (const auto* const buffer : {&running_->rays, &running_->counts}) {
+    if (*buffer) (*buffer)->recordReadback(recorded.commandBuffer, recorded.slot);
+  }
+  if (running_->counts) {
+    const Frame& inputs = frame.inputs.frame;
+    running_->checked[recorded.slot] = {frameDescriptionOf(inputs, glm::vec2(1.0F)), extent_, !inputs.resetHistory};
+  }
   // The first frame of a graph reads the histories of its predecessor.
   if (predecessor_ != nullptr) retired_.push_back({std::move(predecessor_), frames_ + framesInFlight_});
   ++running_->frames;
@@ -101,10 +125,17 @@ void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, co
 std::optional<TracedRays> LiveFrame::traced(std::uint32_t slot) {
   const std::span<const fg::vk::PassTime> times = passTimes(slot);
   if (!running_->rays || times.empty()) return std::nullopt;
-  const std::span<const std::byte> bytes = running_->rays->staging(slot);
-  std::vector<std::uint32_t> rows(bytes.size() / sizeof(std::uint32_t));
-  std::ranges::copy(bytes, std::as_writable_bytes(std::span(rows)).begin());
-  return tracedByDevice(rows, times);
+  return tracedByDevice(wordsOf(*running_->rays, slot), times);
+}
+
+void LiveFrame::lint(std::uint32_t slot) {
+  const std::optional<Checked> frame = std::exchange(running_->checked[slot], std::nullopt);
+  if (!frame) return;
+  running_->linter.add(wordsOf(*running_->counts, slot), frame->camera, frame->extent, frame->continues);
+}
+
+std::vector<LintFinding> LiveFrame::findings() const {
+  return running_->linter.findings();
 }
 
 std::vector<fg::vk::HistoryStatus> LiveFrame::histories() {

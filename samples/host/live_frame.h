@@ -9,6 +9,7 @@
 #include "framegraph/vulkan/frame_queue.h"
 #include "framegraph/vulkan/memory.h"
 #include "framegraph/vulkan/staged_buffer.h"
+#include "passes/lint/input_linter.h"
 #include "samples/denoise/device_graph.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/host/host_frame.h"
@@ -91,21 +92,37 @@ class LiveFrame {
     return running_->device.executor().passTimes(slot);
   }
 
+  /// Check the inputs of the same frame, if the view asks for it (`HostView::lint`).
+  void lint(std::uint32_t slot);
+  /// What looks wrong in the frames that were checked since the graph was declared.
+  [[nodiscard]] std::vector<LintFinding> findings() const;
+
   /// The rays that the device traced in the same frame; nothing if it does not trace or has no times of that frame.
   std::optional<TracedRays> traced(std::uint32_t slot);
 
  private:
+  struct Checked {
+    FrameDescription camera;
+    fg::Extent extent;
+    bool continues;
+  };
   struct Running {
     HostGraph host;
     DeviceGraph device;
-    std::optional<fg::vk::StagedBuffer> rays;  ///< Of `HostGraph::rays`.
-    std::uint32_t frames = 0;                  ///< Number of recorded frames.
+    std::optional<fg::vk::StagedBuffer> rays;    ///< Of `HostGraph::rays`.
+    std::optional<fg::vk::StagedBuffer> counts;  ///< Of `HostGraph::lint`.
+    InputLinter linter;
+    std::vector<std::optional<Checked>> checked;  ///< Frames that the linter has not seen yet, by slot.
+    std::uint32_t frames = 0;                     ///< Number of recorded frames.
   };
   struct Retired {
     std::unique_ptr<Running> graph;
     std::uint64_t until;  ///< Once this many frames are recorded, the device no longer uses the graph.
   };
 
+  /// A buffer that receives a buffer of the graph.
+  std::optional<fg::vk::StagedBuffer> readBack(DeviceGraph& device, const HostGraph& host,
+                                               const std::optional<fg::Buffer>& buffer) const;
   [[nodiscard]] HostGraph declareHost(Denoiser& method, const HostView& view) const;
 
   const GpuDevice& device_;

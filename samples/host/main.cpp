@@ -74,6 +74,7 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   if (options.targetMilliseconds > 0.0) {
     throw UsageError("--target-ms: without a window, all frames have the size of --size");
   }
+  if (options.lint) throw UsageError("--lint: without a window, check frames of walr render with walr lint");
   const FrameRange frames = parseFrameRange(options.frames);
   const fg::Extent extent = options.tracer.extent;
   std::optional<WebpAnimation> animation;
@@ -184,6 +185,7 @@ void run(HostOptions& options) {
     session.autoExposure = !exposure;
     session.resample = options.resampledFrames > 0;
     if (session.resample) session.resampledFrames = options.resampledFrames;
+    session.chooseLint(options.lint);
     session.compareWith(compare.name, std::move(compared));
     asCommandLine([&] { runWindow(tracer, gpu, session, options.tracer.extent, shaderReload(options)); });
   }

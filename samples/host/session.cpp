@@ -95,8 +95,15 @@ void Session::compareWith(const std::string& name, std::unique_ptr<Denoiser> met
 
 void Session::chooseView(HostView view) {
   view.compared = view.kind == HostView::Kind::Compare ? choices_.compared.get() : nullptr;
+  view.lint = choices_.view.lint;
   if (view == choices_.view) return;
   choices_.view = view;
+  note(GraphChange::Settings);
+}
+
+void Session::chooseLint(bool lint) {
+  if (lint == choices_.view.lint) return;
+  choices_.view.lint = lint;
   note(GraphChange::Settings);
 }
 

@@ -41,8 +41,10 @@ class Session {
 
   void chooseMethod(const std::string& name);
   void choosePreset(const std::string& name);
-  /// @param view  `HostView::compared` is set to the method of `compareWith`
+  /// @param view  `HostView::compared` is set to the method of `compareWith`, and `HostView::lint` as by `chooseLint`
   void chooseView(HostView view);
+  /// Choose whether the inputs are checked, in all views.
+  void chooseLint(bool lint);
   /// Choose the method on the right of a comparison. At first it is `none`: the noisy light.
   void compareWith(const std::string& name, std::unique_ptr<Denoiser> method);
   void chooseCamera(CameraMode mode);

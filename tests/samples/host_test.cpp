@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -313,10 +314,13 @@ TEST_F(HostTest, UnknownTextureIsNamedWithThoseThereAre) {
 /// Runs a window's frame without the window.
 class LiveFrameTest : public HostTest {
  protected:
-  void record() {
-    const HostFrame frame = packHostFrame(tracer.trace({.number = number, .animationFrame = double(number)}));
+  /// @param change  of the frame
+  void record(const std::function<void(HostFrame&)>& change = {}) {
+    HostFrame frame = packHostFrame(tracer.trace({.number = number, .animationFrame = double(number)}));
+    if (change) change(frame);
     ++number;
     const fg::vk::Frame recorded = queue.begin();
+    live.lint(recorded.slot);
     live.record(recorded, frame, {});
     queue.submit(recorded);
   }
@@ -354,6 +358,23 @@ TEST_F(LiveFrameTest, AConstantChangesWithoutAnythingMadeAndHistoryGrows) {
   EXPECT_EQ(fg::test::hookState.calls, 0U);
   context.functions = real;
   EXPECT_EQ(ages(), all(6));
+}
+
+TEST_F(LiveFrameTest, APreviousCameraThatIsThisOneIsToldInTenFrames) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser("none");
+  for (const bool wrong : {false, true}) {
+    live.declare(*method, {.lint = true}, LiveFrame::Start::Anew);
+    number = kFrames.first;
+    for (int i = 0; i < 10; ++i) {
+      record([&](HostFrame& frame) {
+        Camera& camera = frame.inputs.frame.camera;
+        if (wrong) camera.previousView = camera.view;
+      });
+    }
+    std::vector<std::string> names;
+    for (const LintFinding& finding : live.findings()) names.emplace_back(finding.name);
+    EXPECT_EQ(names, wrong ? std::vector<std::string>{"camera-still"} : std::vector<std::string>{});
+  }
 }
 
 // Frames of the previous graph are in flight at every change.

@@ -7,11 +7,14 @@ What the window shows must be, bit for bit, what runs without a window write, th
 and the memory chart, and the program must end without a word from the validation layer when it is asked to.
 """
 
+import base64
 import contextlib
+import json
 import os
 import pathlib
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -25,6 +28,7 @@ PANEL_WIDTH = 420
 # that there is none. A message of the validation layer changes the exit code.
 OWN_WORDS = re.compile(r"^(walr-host: |warning: |no display: |built without windows )", re.MULTILINE)
 REFUSAL_COLOUR = (110, 50, 20)  # Of the ground of the message.
+FINDINGS_COLOUR = (80, 20, 90)
 
 
 def find_picture(screen, picture):
@@ -71,13 +75,14 @@ class Host:
         return re.findall(r"'([^']*)'", run.stderr)[1:]
 
     @contextlib.contextmanager
-    def window(self, screen, frames, *options, meanwhile=lambda: None):
-        """The window, after `meanwhile` was called and it has reached the last frame and stopped there."""
+    def window(self, screen, frames, *options, more=(), meanwhile=lambda: None):
+        """The window, after `meanwhile` was called and it has reached the last frame and stopped there. It has `more`
+        options than the picture that it shows."""
         last = int(frames.split("-")[1])
         expected = self.pictures(frames, *options)[last]
         if len({bytes(row) for row in expected}) < self.size[1] // 2:
             sys.exit("the expected image has too few distinct rows to be found")
-        process = subprocess.Popen([*self.command(frames, options), "--once", "--validate"],
+        process = subprocess.Popen([*self.command(frames, options), *more, "--once", "--validate"],
                                    env={**os.environ, "DISPLAY": screen.display}, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
         try:
@@ -399,6 +404,34 @@ def refused(host, screen):
         sys.exit(f"what the command line asks for is refused with {again.returncode}: {again.stderr}")
 
 
+def lint(host, screen):
+    """What looks wrong in the inputs is listed below the panel while they are checked. A scene without walls has no indirect light."""
+    corners = struct.pack("<9f", -3, -3, 0, 3, -3, 0, 0, 4, 1)
+    one_triangle = {
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 2],
+                                "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," + base64.b64encode(corners).decode()}]}
+    scene = host.folder / "triangle.gltf"
+    scene.write_text(json.dumps(one_triangle))
+    alone = Host(host.program, scene, host.folder, host.screenshot)
+
+    def listed(window):
+        return any(bytes(FINDINGS_COLOUR) * 10 in row for row in window.rows())
+
+    with alone.window(screen, "0-3", "--direct", "noisy", more=("--lint",)) as window:
+        wait_for(lambda: listed(window), "the finding that there is no light")
+        write_png(host.screenshot, screen.rows())
+        window.hands.click(*window.at(210, 81))
+        wait_for(lambda: not listed(window), "the finding to vanish with the check of the inputs")
+
+
 def drop(host, screen):
     """A scene that is dropped onto the window takes the place of the old one; a file that is none leaves it."""
     view = ("--view", "albedo")
@@ -456,7 +489,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, virtual_screen(folder) as screen:
         host = Host(program, pathlib.Path(scenes) / scene, pathlib.Path(folder), pathlib.Path(screenshot))
         scenarios = {"denoised": denoised, "split": split, "texture": texture, "methods": methods, "views": views,
-                     "play": play, "refused": refused, "drop": drop, "resize": resize,
+                     "play": play, "refused": refused, "lint": lint, "drop": drop, "resize": resize,
                      "resize_on_device": resize_on_device}
         scenarios[scenario](host, screen)
 

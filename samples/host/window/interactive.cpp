@@ -217,6 +217,8 @@ class Show {
     const double tracing = facts_.deviceTraces ? 0.0 : facts_.tracingHistory.back();
     if (fresh_ && std::max(sum, tracing) > 0.0) control_.frameTook(std::max(sum, tracing));
     if (const auto traced = live_.traced(slot)) facts_.traced = *traced;
+    live_.lint(slot);
+    facts_.findings = live_.findings();
   }
 
   [[nodiscard]] Rectangle place() {

@@ -83,7 +83,8 @@ void Interface::update(Session& session, const LiveFrame& live, const FrameFacts
   constexpr auto kWidth = static_cast<float>(kPanelWidth);
   const float left = std::max(0.0F, size.x - kWidth);
   const float width = std::min(kWidth, size.x);
-  const float foot = refusalPanel(session, {left, size.y}, width);
+  float foot = refusalPanel(session, {left, size.y}, width);
+  foot += findingsPanel(facts, {left, size.y - foot}, width);
   ImGui::SetNextWindowPos({left, 0.0F});
   ImGui::SetNextWindowSize({width, size.y - foot});
   constexpr ImGuiWindowFlags kFixed =

@@ -30,6 +30,7 @@ struct FrameFacts {
   /// Times of the last frames in milliseconds, oldest first.
   std::deque<float> tracingHistory;
   std::deque<float> deviceHistory;
+  std::vector<LintFinding> findings;  ///< See `LiveFrame::findings`.
 };
 
 /// The user interface beside the image, drawn with Dear ImGui.

@@ -194,6 +194,23 @@ ImU32 colourOf(std::size_t index) {
   return ImGui::GetColorU32(static_cast<ImVec4>(ImColor::HSV(hue, 0.55F, 0.8F)));
 }
 
+/// A text at the foot of the panel. @returns its height; 0 if there is none
+float footPanel(const char* name, const std::string& message, ImU32 colour, const ImVec2& corner, float width) {
+  if (message.empty()) return 0.0F;
+  const char* const text = message.c_str();
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const float lines = ImGui::CalcTextSize(text, nullptr, false, width - 2.0F * padding.x).y;
+  const float height = lines + 2.0F * padding.y;
+  ImGui::SetNextWindowPos({corner.x, corner.y - height});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, colour);
+  ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
+  ImGui::TextWrapped("%s", text);
+  ImGui::End();
+  ImGui::PopStyleColor();
+  return height;
+}
+
 }  // namespace
 
 void labelComparison(const Session& session, const Rectangle& place) {
@@ -242,6 +259,9 @@ void playPanel(Session& session) {
   }
   ImGui::NewLine();
   ImGui::Checkbox("Objects and lights move", &session.objectsMove);
+  ImGui::SameLine();
+  bool lint = session.view().lint;
+  if (ImGui::Checkbox("Check inputs", &lint)) session.chooseLint(lint);
 }
 
 void viewPanel(Session& session, const LiveFrame& live, const std::vector<std::string>& textures, bool references) {
@@ -404,19 +424,13 @@ void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFa
 }
 
 float refusalPanel(const Session& session, const ImVec2& corner, float width) {
-  if (session.refusal().empty()) return 0.0F;
-  const char* const text = session.refusal().c_str();
-  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-  const float lines = ImGui::CalcTextSize(text, nullptr, false, width - 2.0F * padding.x).y;
-  const float height = lines + 2.0F * padding.y;
-  ImGui::SetNextWindowPos({corner.x, corner.y - height});
-  ImGui::SetNextWindowSize({width, height});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(110, 50, 20, 255));
-  ImGui::Begin("refusal", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
-  ImGui::TextWrapped("%s", text);
-  ImGui::End();
-  ImGui::PopStyleColor();
-  return height;
+  return footPanel("refusal", session.refusal(), IM_COL32(110, 50, 20, 255), corner, width);
+}
+
+float findingsPanel(const FrameFacts& facts, const ImVec2& corner, float width) {
+  std::string text;
+  for (const LintFinding& finding : facts.findings) text += (text.empty() ? "" : "\n") + finding.text();
+  return footPanel("findings", text, IM_COL32(80, 20, 90, 255), corner, width);
 }
 
 }  // namespace walr::host

@@ -36,5 +36,7 @@ void memoryPanel(const fg::GraphDesc& graph, const fg::Plan& plan, const FrameFa
 /// @param corner  lower left corner
 /// @returns its height; 0 if nothing was refused
 float refusalPanel(const Session& session, const ImVec2& corner, float width);
+/// The same for what looks wrong in the inputs.
+float findingsPanel(const FrameFacts& facts, const ImVec2& corner, float width);
 
 }  // namespace walr::host
