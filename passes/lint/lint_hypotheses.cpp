@@ -194,6 +194,13 @@ bool toNext(Context context, Signs signs, Reading reading) {
   return true;
 }
 
+/// As if this frame's places were those of the last one: nearly so, beside edges.
+bool motionLate(Context context, Signs, Reading reading) {
+  if (context.last == nullptr || !context.last->continues) return false;
+  reading = statedReading(*context.last, context.motionJittered);
+  return true;
+}
+
 // ---- Jitter ----
 
 bool jitterTheOtherWay(Context, Signs, Reading reading) {
@@ -378,6 +385,7 @@ std::vector<LintHypothesis> makeHypotheses() {
     next.needsNext = true;
     next.signs = sign;
   }
+  add("motion-late", motionLate, "motion is that of the frame before", "hand over the motion of the same frame");
   addAll("view-axes", viewAxes,
          "view space is not that of the picture, where x is to the right, y up and the camera looks down -z",
          "negate the axes of the view matrix, and the z of the world if one is left-handed",

@@ -305,6 +305,12 @@ std::vector<Mistake> mistakes() {
          if (kind.cycles) scaleMotion(frames, {1, -1, 0});
        },
        {"motion-next"}},
+      {"motion of the last frame",
+       [](const Kind&, Frames& frames, InputConventions&) {
+         for (std::size_t i = frames.size() - 1; i > 0; --i) frames[i].frame.motion = frames[i - 1].frame.motion;
+       },
+       {"motion-late"},
+       showsInMotion},
       {"motion.z reversed",
        motion({1, 1, -1}),
        {"motion-z-direction"},
