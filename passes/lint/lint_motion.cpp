@@ -1,6 +1,7 @@
 // Motion compared with cameras and depth.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "passes/lint/lint_judge.h"
 
@@ -10,25 +11,41 @@ bool LintJudge::has(std::string_view name) const {
   return std::ranges::any_of(found_, [&](const LintFinding& finding) { return finding.name == name; });
 }
 
+namespace {
+
+/// The factor of depth, of motion.x or of the rays' slopes that was fitted.
+std::string factorOf(const LintScore& score) {
+  if (score.mostFitted == 0.0 || score.mostFitted == 1.0) return "";  // In no frame, or nothing was fitted.
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), ", with a factor of %.3g", score.mostFitted);
+  return text.data();
+}
+
+}  // namespace
+
 void LintJudge::judgeMistake(const LintScores& scores, std::size_t best) {
   const LintHypothesis& mistake = lintHypotheses()[best];
   const LintScore& score = scores.mistakes[best];
   const std::string rivals = scores.rivals(best);
-  const std::string agrees = " agrees with cameras and depth on " + share(score.better, score.tested, "samples") +
-                             " if they are read another way, and on " + std::to_string(score.worse) + " as stated" +
-                             (rivals.empty() ? "" : " (less likely mistakes that explain as much: " + rivals + ")");
+  const auto agrees = [&](const std::string& factor) {
+    return " agrees with cameras and depth on " + share(score.better, score.tested, "samples") +
+           " if they are read another way" + factor + ", and on " + std::to_string(score.worse) + " as stated" +
+           (rivals.empty() ? "" : " (less likely mistakes that explain as much: " + rivals + ")");
+  };
   static constexpr std::array<std::array<std::string_view, 3>, 2> kNames{
       {{"motion-x-direction", "motion-x-unit", "motion-x-missing"},
        {"motion-y-direction", "motion-y-unit", "motion-y-missing"}}};
   static constexpr std::array<std::string_view, 3> kKinds{"motion-direction", "motion-unit", "motion-missing"};
   const auto kind = std::ranges::find(kKinds, mistake.name);
-  if (kind == kKinds.end()) return add({mistake.name, "motion" + agrees, mistake.cause, mistake.wayOut});
+  if (kind == kKinds.end())
+    return add({mistake.name, "motion" + agrees(factorOf(score)), mistake.cause, mistake.wayOut});
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double sign = mistake.signs[int(axis)];
     if ((sign == 1.0 && mistake.name != "motion-unit") || score.axes.at(axis) < kLeastLintSample) continue;
     std::string subject = axis == 0 ? "motion.x" : "motion.y";
     if (sign <= 0.0) subject += sign == 0.0 ? " is 0 and" : ", negated,";
-    add({kNames.at(axis).at(std::size_t(kind - kKinds.begin())), subject + agrees, mistake.cause, mistake.wayOut});
+    add({kNames.at(axis).at(std::size_t(kind - kKinds.begin())), subject + agrees(axis == 0 ? factorOf(score) : ""),
+         mistake.cause, mistake.wayOut});
   }
 }
 
