@@ -7,6 +7,7 @@
 #include "passes/conventions/light_direction.h"
 #include "passes/guides/shared_guides.h"
 #include "passes/lint/lint_inputs.h"
+#include "passes/stage/expected_error.h"
 #include "passes/stage/history_length.h"
 #include "shaders/conventions/frame.h"
 
@@ -101,6 +102,7 @@ void importResults(fg::Graph& graph, LightImages& light, const LightNames& names
   light.output = import(kOutputName, all.host.result);
   if (all.wanted.historyLength) light.historyLength = import(kHistoryLengthName, kHistoryLengthFormat);
   if (all.wanted.lightDirection) light.lightDirection = import(kLightDirectionName, kLightDirectionFormat);
+  if (all.wanted.expectedError) light.expectedError = import(kExpectedErrorName, kExpectedErrorFormat);
 }
 
 /// The images of a light after the first, which have the formats of the first one's.
@@ -125,9 +127,11 @@ void addLight(DenoiseGraph& declared, Denoiser& method, const DenoiserInputs& in
   const fg::Texture target = all.host.convertsResult() ? stages.texture("result to convert", result) : to.output;
   if (to.historyLength.valid()) inspection.wantHistoryLength(to.historyLength);
   if (to.lightDirection.valid()) inspection.wantLightDirection(to.lightDirection);
+  if (to.expectedError.valid()) inspection.wantExpectedError(to.expectedError);
   fg::Texture denoised = method.add(stages, inputs, target);
   if (to.historyLength.valid()) graph.exported(inspection.historyLength(), all.states.outputAfter);
   if (to.lightDirection.valid()) graph.exported(inspection.lightDirection(), all.states.outputAfter);
+  if (to.expectedError.valid()) graph.exported(inspection.expectedError(), all.states.outputAfter);
   if (all.host.convertsResult()) denoised = addConvertResult(stages, denoised, to.output, declared.host);
   graph.exported(denoised, all.states.outputAfter);
 }

@@ -31,6 +31,7 @@ struct InspectionWish {
   bool counters = false;
   bool historyLength = false;   ///< Of every pixel and light, in `kHistoryLengthFormat`.
   bool lightDirection = false;  ///< Of every pixel and light, in `kLightDirectionFormat`; of the method walr.
+  bool expectedError = false;   ///< Of every pixel and light, in `kExpectedErrorFormat`; of the method walr.
   bool lint = false;            ///< Count likely faults in the inputs: see `InputLinter`.
 };
 

@@ -34,6 +34,7 @@ inline constexpr std::string_view kConfidenceName = "confidence";
 inline constexpr std::string_view kOutputName = "denoised";
 inline constexpr std::string_view kHistoryLengthName = "history_length";
 inline constexpr std::string_view kLightDirectionName = "light_direction";
+inline constexpr std::string_view kExpectedErrorName = "expected_error";
 inline constexpr VkFormat kOutputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// Check that a host's texture can be used as an input.

@@ -50,6 +50,7 @@ struct LightImages {
   fg::Texture output;
   fg::Texture historyLength;   ///< Invalid unless requested.
   fg::Texture lightDirection;  ///< Invalid unless requested.
+  fg::Texture expectedError;   ///< Invalid unless requested.
 };
 
 }  // namespace walr

@@ -55,6 +55,7 @@ void checkSwitches(const WalrDenoiserInfo& info) {
   checkSwitch(info.counters, "WalrDenoiserInfo::counters");
   checkSwitch(info.history_length, "WalrDenoiserInfo::history_length");
   checkSwitch(info.light_direction, "WalrDenoiserInfo::light_direction");
+  checkSwitch(info.expected_error, "WalrDenoiserInfo::expected_error");
 }
 
 VkFormat checkedResultFormat(VkFormat format) {
@@ -164,6 +165,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
       resultFormat_(checkedResultFormat(info.denoised_format)),
       historyLength_(info.history_length == VK_TRUE),
       lightDirection_(info.light_direction == VK_TRUE),
+      expectedError_(info.expected_error == VK_TRUE),
       slots_(checkedSlots(info.frames_in_flight)) {
   checkSwitches(info);
   if (info.preset != nullptr) usePreset(info.preset);
@@ -184,6 +186,7 @@ DenoiseGraph Description::declare(const InspectionWish& wanted) const {
   InspectionWish all = wanted;
   all.historyLength = historyLength_;
   all.lightDirection = lightDirection_;
+  all.expectedError = expectedError_;
   std::vector<Denoiser*> methods;
   for (const std::unique_ptr<Denoiser>& method : methods_) methods.push_back(method.get());
   return declareDenoiseGraph(methods, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
@@ -195,8 +198,10 @@ ListedGraph Description::list(std::span<const WalrPortFormat> ports, const Inspe
                                                  "' cannot check inputs or count: set WalrDenoiserInfo::lint and "
                                                  "WalrDenoiserInfo::counters for a whole method");
   }
-  if (stage_ != nullptr && (historyLength_ || lightDirection_)) {
-    const std::string output(historyLength_ ? kHistoryLengthName : kLightDirectionName);
+  if (stage_ != nullptr && (historyLength_ || lightDirection_ || expectedError_)) {
+    const std::string output(historyLength_    ? kHistoryLengthName
+                             : lightDirection_ ? kLightDirectionName
+                                               : kExpectedErrorName);
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + methodName_ + "' has no output '" + output +
                                                  "': set WalrDenoiserInfo::" + output + " for a whole method");
   }

@@ -146,6 +146,7 @@ class Description {
   VkFormat resultFormat_;
   bool historyLength_;
   bool lightDirection_;
+  bool expectedError_;
   std::uint32_t slots_;
   std::uint64_t frames_ = 0;
   std::optional<WalrCamera> lastCamera_;

@@ -94,13 +94,14 @@ struct LightMembers {
   const WalrImage* WalrFrame::*denoised;
   const WalrImage* WalrFrame::*historyLength;
   const WalrImage* WalrFrame::*lightDirection;
+  const WalrImage* WalrFrame::*expectedError;
 };
 
 constexpr std::array<LightMembers, kMostLights> kLightMembers{
     {{&WalrFrame::lighting, &WalrFrame::confidence, &WalrFrame::denoised, &WalrFrame::history_length,
-      &WalrFrame::light_direction},
+      &WalrFrame::light_direction, &WalrFrame::expected_error},
      {&WalrFrame::second_lighting, &WalrFrame::second_confidence, &WalrFrame::second_denoised,
-      &WalrFrame::second_history_length, &WalrFrame::second_light_direction}}};
+      &WalrFrame::second_history_length, &WalrFrame::second_light_direction, &WalrFrame::second_expected_error}}};
 
 /// An input that lights share.
 struct SharedMember {
@@ -159,6 +160,8 @@ std::array<ImageSlot, kImageCount> makeSlots() {
                         &LightImages::historyLength);
     *slot++ = lightSlot(i, kLightDirectionName, &LightMembers::lightDirection, ImageRole::Inspection,
                         &LightImages::lightDirection);
+    *slot++ = lightSlot(i, kExpectedErrorName, &LightMembers::expectedError, ImageRole::Inspection,
+                        &LightImages::expectedError);
   }
   return slots;
 }

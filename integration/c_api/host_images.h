@@ -40,9 +40,9 @@ struct ImageSlot {
   [[nodiscard]] fg::Texture textureOf(const DenoiseGraph& graph) const;
 };
 
-/// Beside the inputs of the first light, a light has two inputs, a result, history lengths and a direction; and there
-/// is one view.
-inline constexpr std::size_t kImageCount = std::tuple_size_v<decltype(kHostInputs)> + 5 * kMostLights - 2 + 1;
+/// Beside the inputs of the first light, a light has two inputs, a result, history lengths, a direction and an expected
+/// error; and there is one view.
+inline constexpr std::size_t kImageCount = std::tuple_size_v<decltype(kHostInputs)> + 6 * kMostLights - 2 + 1;
 
 /// All images of a frame. Arrays of images have this order: inputs of the first light, of the others, results, the
 /// view, and what else each light writes.

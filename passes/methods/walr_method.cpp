@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "passes/regression/window_fit.h"
+#include "passes/stage/expected_error.h"
 #include "passes/temporal/temporal_stages.h"
 
 namespace walr {
@@ -72,7 +73,10 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   const BlockFits fits = addBlockRegression(graph, inputs.frame, light, guides, blocks);
   const fg::Texture filtered =
       addBlockReconstruction(graph, inputs.frame, light, guides, fits, filterTarget(graph, plan, output), blocks);
-  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
+  const fg::Texture result = addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
+  const bool packed = settings.accumulation.storage == LightStorage::Packed;
+  if (plan.accumulates && packed && !accumulated.lightGrid) offerExpectedError(graph, accumulated.lighting, result);
+  return result;
 }
 
 }  // namespace walr

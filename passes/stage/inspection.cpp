@@ -99,6 +99,20 @@ void Inspection::requireLightDirection() const {
       "there is no light direction: the method has no slopes of the light over the normal; use the method walr");
 }
 
+void Inspection::offerExpectedError(const DeclareView& declare) {
+  if (!expectedError_.valid()) return;
+  expectedError_ = declare("expected error").store("outExpectedError", expectedError_);
+  expectedErrorWritten_ = true;
+}
+
+void Inspection::requireExpectedError() const {
+  if (!expectedError_.valid() || expectedErrorWritten_) return;
+  throw std::invalid_argument(
+      "there is no expected error: use the method walr without spatial-only, with packed accumulation.storage, and "
+      "with "
+      "light whose groups have one row");
+}
+
 void Inspection::requireViews() const {
   for (const DebugView& view : views_) {
     if (view.written) continue;

@@ -81,6 +81,12 @@ class Inspection {
   /// @param texture of `kLightDirectionFormat` and the inputs' extent
   void wantLightDirection(fg::Texture texture) { lightDirection_ = texture; }
 
+  /// Have the expected error of the result written for every pixel.
+  /// @param texture of `kExpectedErrorFormat` and the inputs' extent
+  void wantExpectedError(fg::Texture texture) { expectedError_ = texture; }
+
+  /// The texture of expected errors as the last pass leaves it; not valid if nobody wants it.
+  [[nodiscard]] fg::Texture expectedError() const { return expectedError_; }
   /// The texture of light directions as the last pass leaves it; not valid if nobody wants it.
   [[nodiscard]] fg::Texture lightDirection() const { return lightDirection_; }
   /// The texture of history lengths as the last pass leaves it; not valid if nobody wants it.
@@ -109,6 +115,12 @@ class Inspection {
   /// @param declare declares the pass, all but the texture
   void offerLightDirection(const DeclareView& declare);
 
+  /// Called by the method that knows the mean over time and the result: write the expected error, if it is wanted.
+  /// @param declare declares the pass, all but the texture
+  void offerExpectedError(const DeclareView& declare);
+
+  /// @throws std::invalid_argument if the expected error is wanted and the method does not have it
+  void requireExpectedError() const;
   /// @throws std::invalid_argument if the light direction is wanted and no stage has it
   void requireLightDirection() const;
   /// @throws std::invalid_argument if the history length is wanted and no stage has it
@@ -124,6 +136,8 @@ class Inspection {
   bool historyLengthWritten_ = false;
   fg::Texture lightDirection_;
   bool lightDirectionWritten_ = false;
+  fg::Texture expectedError_;
+  bool expectedErrorWritten_ = false;
   fg::Buffer buffer_;
   std::vector<Counter> counters_;
   std::vector<ViewInfo> known_;

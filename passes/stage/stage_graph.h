@@ -73,13 +73,18 @@ class StageGraph {
   void offerLightDirection(const Inspection::DeclareView& declare) const {
     if (inspection_ != nullptr) inspection_->offerLightDirection(declare);
   }
-  /// @throws std::invalid_argument naming a wanted view that no stage has offered, or saying that no stage has history
-  ///         or a light direction
+  /// Offer the expected error of the method's result: see `Inspection::offerExpectedError`.
+  void offerExpectedError(const Inspection::DeclareView& declare) const {
+    if (inspection_ != nullptr) inspection_->offerExpectedError(declare);
+  }
+  /// @throws std::invalid_argument naming a wanted view that no stage has offered, or saying that no stage has history,
+  ///         a light direction or an expected error
   void requireOutputs() const {
     if (inspection_ == nullptr) return;
     inspection_->requireViews();
     inspection_->requireHistoryLength();
     inspection_->requireLightDirection();
+    inspection_->requireExpectedError();
   }
 
  private:

@@ -17,6 +17,7 @@
 #include "integration/host_inputs.h"
 #include "passes/conventions/light_direction.h"
 #include "passes/methods/denoiser.h"
+#include "passes/stage/expected_error.h"
 #include "passes/stage/history_length.h"
 #include "passes/stage/inspection.h"
 #include "tests/guide_table.h"
@@ -102,6 +103,7 @@ std::vector<Column> columns() {
                     [](VkFormat format) { return std::ranges::find(kResultFormats, format) != kResultFormats.end(); }});
   result.push_back({"`history_length`", kHistoryLengthFormat, one(kHistoryLengthFormat)});
   result.push_back({"`light_direction`", kLightDirectionFormat, one(kLightDirectionFormat)});
+  result.push_back({"`expected_error`", kExpectedErrorFormat, one(kExpectedErrorFormat)});
   result.push_back({"`view`", kViewFormat, one(kViewFormat)});
   return result;
 }

@@ -215,23 +215,35 @@ TEST(HistoryPassByPass, BothImagesAreTheHosts) {
   EXPECT_THROW(hostImages(info), std::runtime_error);
 }
 
-TEST(LightDirectionPassByPass, IsTheHostsImageAndOfWalrOnly) {
-  WalrDenoiserInfo info = denoiserInfo(nullptr);
-  const auto has = [&] { return std::ranges::count(hostImages(info), std::string("light_direction")) == 1; };
-  EXPECT_FALSE(has());
-  info.light_direction = VK_TRUE;
-  EXPECT_TRUE(has());
-  // A caller with the header before this member.
-  info.struct_size = offsetof(WalrDenoiserInfo, light_direction);
-  EXPECT_FALSE(has());
-  info.struct_size = sizeof(info);
-  for (const char* method : {"flr", "temporal_accumulation"}) {
-    info.method = method;
-    try {
-      (void)hostImages(info);
-      ADD_FAILURE() << method << " took it";
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find("light"), std::string::npos) << error.what();
+TEST(OutputsPassByPass, AreTheHostsImagesAndOfWalrOnly) {
+  struct Output {
+    const char* name;
+    VkBool32 WalrDenoiserInfo::*wanted;
+    std::size_t offset;
+    const char* named;  ///< In errors.
+  };
+  for (const Output& output : {Output{"light_direction", &WalrDenoiserInfo::light_direction,
+                                      offsetof(WalrDenoiserInfo, light_direction), "light"},
+                               Output{"expected_error", &WalrDenoiserInfo::expected_error,
+                                      offsetof(WalrDenoiserInfo, expected_error), "expected"}}) {
+    SCOPED_TRACE(output.name);
+    WalrDenoiserInfo info = denoiserInfo(nullptr);
+    const auto has = [&] { return std::ranges::count(hostImages(info), std::string(output.name)) == 1; };
+    EXPECT_FALSE(has());
+    info.*output.wanted = VK_TRUE;
+    EXPECT_TRUE(has());
+    // A caller with the header before this member.
+    info.struct_size = std::uint32_t(output.offset);
+    EXPECT_FALSE(has());
+    info.struct_size = sizeof(info);
+    for (const char* method : {"flr", "temporal_accumulation"}) {
+      info.method = method;
+      try {
+        (void)hostImages(info);
+        ADD_FAILURE() << method << " took it";
+      } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find(output.named), std::string::npos) << error.what();
+      }
     }
   }
 }

@@ -75,6 +75,7 @@ static void test_create(const WalrDevice* device) {
       "known presets: standard; of the former presets, fast, blocks, one-sample and many-samples are part of standard",
       info.preset = "fast");
   REFUSED("there is no light direction: the method", info.method = "svgf", info.light_direction = VK_TRUE);
+  REFUSED("there is no expected error: use the method walr", info.method = "flr", info.expected_error = VK_TRUE);
   REFUSED("there is no history length", info.method = "none", info.history_length = VK_TRUE);
   REFUSED("0 x 48", info.width = 0);
   REFUSED("16384", info.height = 1U << 20);

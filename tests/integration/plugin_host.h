@@ -46,7 +46,9 @@ inline const WalrImage*& imageOf(WalrFrame& frame, std::string_view name) {
       {"second_confidence", &WalrFrame::second_confidence},
       {"second_history_length", &WalrFrame::second_history_length},
       {"second_light_direction", &WalrFrame::second_light_direction},
-      {"light_direction", &WalrFrame::light_direction}};
+      {"light_direction", &WalrFrame::light_direction},
+      {"second_expected_error", &WalrFrame::second_expected_error},
+      {"expected_error", &WalrFrame::expected_error}};
   const auto* found = std::ranges::find(kMembers, name, [](const auto& member) { return member.first; });
   if (found == std::end(kMembers)) throw std::out_of_range(std::string(name));
   return frame.*found->second;
@@ -83,12 +85,14 @@ inline std::vector<NeededImage> neededImages(const WalrApi& api, WalrDenoiser de
   if (info.confidence_format != VK_FORMAT_UNDEFINED) names.emplace_back("confidence");
   if (info.history_length == VK_TRUE) names.emplace_back("history_length");
   if (info.light_direction == VK_TRUE) names.emplace_back("light_direction");
+  if (info.expected_error == VK_TRUE) names.emplace_back("expected_error");
   if (view) names.emplace_back("view");
   if (info.light_count == 2) {
     names.insert(names.end(), {"second_lighting", "second_denoised"});
     if (info.confidence_format != VK_FORMAT_UNDEFINED) names.emplace_back("second_confidence");
     if (info.history_length == VK_TRUE) names.emplace_back("second_history_length");
     if (info.light_direction == VK_TRUE) names.emplace_back("second_light_direction");
+    if (info.expected_error == VK_TRUE) names.emplace_back("second_expected_error");
   }
   std::vector<NeededImage> needed;
   for (const std::string& name : names) {

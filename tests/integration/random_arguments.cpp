@@ -69,8 +69,8 @@ void RandomInfo::chooseOutputs(Dice& dice, Expectation& expected) {
     *wanted = chooseSwitch(dice, expected, 8);
     if (*wanted == VK_TRUE) expected.mayFail();
   }
-  if (dice.oneIn(50)) {  // Most methods refuse it.
-    info_.value.light_direction = VK_TRUE;
+  if (dice.oneIn(50)) {  // Most methods refuse them.
+    info_.value.light_direction = info_.value.expected_error = VK_TRUE;
     expected.mayFail();
   }
   if (!dice.oneIn(6)) return;

@@ -76,10 +76,10 @@ void RandomCalls::createDenoiser() {
                              .orthographic = info.orthographic(),
                              .twoLights = info.get()->light_count == 2,
                              .allocates = allocates,
-                             // Settings without history have no history length, most methods no light direction, and
-                             // presets of two lights may need other guides.
+                             // Settings without history have no history length, most methods no light direction and
+                             // no expected error, and presets of two lights may need other guides.
                              .changed = info.get()->history_length != 0 || info.get()->light_direction != 0 ||
-                                        info.get()->second_preset != nullptr});
+                                        info.get()->expected_error != 0 || info.get()->second_preset != nullptr});
 }
 
 void RandomCalls::destroyDenoiser() {
@@ -170,9 +170,10 @@ void RandomCalls::requirements() {
     needs.value.struct_size = dice_.of({0U, 4U, 1U << 20});
     expected.fails();
   }
-  const char* const port = dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence",
-                                     "history_length", "light_direction", "second_lighting", "second_denoised",
-                                     "denoised", "view", "magic", "", static_cast<const char*>(nullptr)});
+  const char* const port =
+      dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "history_length",
+                "light_direction", "expected_error", "second_lighting", "second_denoised", "denoised", "view", "magic",
+                "", static_cast<const char*>(nullptr)});
   if (port == nullptr || *port == '\0' || std::strcmp(port, "magic") == 0) expected.fails();
   if (picked.model != nullptr && picked.model->changed) expected.mayFail();
   if (dice_.oneIn(2)) {

@@ -27,7 +27,9 @@ constexpr std::array kPorts = {Port{"lighting", &WalrFrame::lighting},
                                Port{"history_length", &WalrFrame::history_length},
                                Port{"light_direction", &WalrFrame::light_direction},
                                Port{"second_history_length", &WalrFrame::second_history_length},
-                               Port{"second_light_direction", &WalrFrame::second_light_direction}};
+                               Port{"second_light_direction", &WalrFrame::second_light_direction},
+                               Port{"expected_error", &WalrFrame::expected_error},
+                               Port{"second_expected_error", &WalrFrame::second_expected_error}};
 constexpr std::size_t kLastHolding = 10;  ///< Index of the last image that may be larger than the rectangle.
 
 /// Makes one of the image's members wrong.

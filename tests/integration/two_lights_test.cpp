@@ -15,7 +15,7 @@ namespace {
 constexpr Size kSize{61, 43};
 constexpr std::uint32_t kFrames = 5;
 constexpr std::uint32_t kReset = 3;  ///< The frame that drops the history.
-constexpr std::array kOutputs{"denoised", "history_length", "light_direction"};
+constexpr std::array kOutputs{"denoised", "history_length", "light_direction", "expected_error"};
 
 class TwoLights : public PluginTest {
  protected:
@@ -38,7 +38,7 @@ class TwoLights : public PluginTest {
     const bool isWalr = std::string(method) == "walr";
     whole.confidence_format = VK_FORMAT_R32_SFLOAT;
     whole.history_length = VK_TRUE;
-    whole.light_direction = isWalr ? VK_TRUE : VK_FALSE;
+    whole.light_direction = whole.expected_error = isWalr ? VK_TRUE : VK_FALSE;
     return whole;
   }
 
@@ -55,7 +55,8 @@ class TwoLights : public PluginTest {
       const std::uint32_t flags = number == kReset ? WALR_FRAME_RESET_HISTORY : 0;
       for (Opaque* each : {&together, &first, &second}) each->frame(camera, flags);
       for (const std::string output : kOutputs) {
-        if (output == "light_direction" && both.light_direction == VK_FALSE) continue;
+        const bool ofWalr = output == "light_direction" || output == "expected_error";
+        if (ofWalr && both.light_direction == VK_FALSE) continue;
         const auto ofFirst = download(host, together.image(output));
         const auto ofSecond = download(host, together.image("second_" + output));
         EXPECT_EQ(ofFirst, download(host, first.image(output))) << output;

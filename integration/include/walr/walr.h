@@ -318,6 +318,8 @@ typedef struct WalrDenoiserInfo {
    * text lists them. Methods without guides and single stages have one light. */
   uint32_t light_count;
   const char* second_preset; /* With two lights: the preset of the second. Null means `preset`. */
+  VkBool32 expected_error;   /* Write WalrFrame::expected_error. It costs a small pass; method walr only. */
+  uint32_t reserved;
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -364,8 +366,9 @@ typedef struct WalrImageRequirements {
 } WalrImageRequirements;
 
 /* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "denoised",
- * "view" (see walr_set_view), "history_length" or "light_direction"; with two lights also "second_lighting",
- * "second_confidence", "second_denoised", "second_history_length" or "second_light_direction".
+ * "view" (see walr_set_view), "history_length", "light_direction" or "expected_error"; with two lights also
+ * "second_lighting", "second_confidence", "second_denoised", "second_history_length", "second_light_direction" or
+ * "second_expected_error".
  * Needs no image and no walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
@@ -471,6 +474,11 @@ typedef struct WalrFrame {
   const WalrImage* second_confidence;
   const WalrImage* second_history_length;
   const WalrImage* second_light_direction;
+  /* With WalrDenoiserInfo::expected_error: an R16F image of exactly the denoised size that receives the root mean
+   * square error to expect of the result after the tone map x / (1 + x), 0 to 1, the same for all pixels of a tile of 8
+   * x 8. 0 where there is nothing to denoise. See "Expected error" in the integration guide. */
+  const WalrImage* expected_error;
+  const WalrImage* second_expected_error;
 } WalrFrame;
 
 /*

@@ -13,7 +13,7 @@
 namespace walr::adapters {
 
 /// The textures of a frame. Inputs are shader resources; Outputs are created with `isUAV`: `denoised`, `historyLength`,
-/// `lightDirection`, their counterparts of the second light, and `view`.
+/// `lightDirection`, `expectedError`, their counterparts of the second light, and `view`.
 struct NvrhiTextures {
   nvrhi::ITexture* lighting = nullptr;
   nvrhi::ITexture* depth = nullptr;
@@ -26,12 +26,14 @@ struct NvrhiTextures {
   nvrhi::ITexture* confidence = nullptr;
   nvrhi::ITexture* historyLength = nullptr;
   nvrhi::ITexture* lightDirection = nullptr;
+  nvrhi::ITexture* expectedError = nullptr;
   nvrhi::ITexture* view = nullptr;
   nvrhi::ITexture* secondLighting = nullptr;
   nvrhi::ITexture* secondConfidence = nullptr;
   nvrhi::ITexture* secondDenoised = nullptr;
   nvrhi::ITexture* secondHistoryLength = nullptr;
   nvrhi::ITexture* secondLightDirection = nullptr;
+  nvrhi::ITexture* secondExpectedError = nullptr;
 };
 
 /// Records a denoiser into NVRHI's command lists. NVRHI still tracks the states of the textures.
@@ -62,12 +64,14 @@ class NvrhiDenoiser {
                               {textures.denoised, &frame.denoised, true},
                               {textures.historyLength, &frame.history_length, true},
                               {textures.lightDirection, &frame.light_direction, true},
+                              {textures.expectedError, &frame.expected_error, true},
                               {textures.view, &frame.view, true},
                               {textures.secondLighting, &frame.second_lighting, false},
                               {textures.secondConfidence, &frame.second_confidence, false},
                               {textures.secondDenoised, &frame.second_denoised, true},
                               {textures.secondHistoryLength, &frame.second_history_length, true},
-                              {textures.secondLightDirection, &frame.second_light_direction, true}};
+                              {textures.secondLightDirection, &frame.second_light_direction, true},
+                              {textures.secondExpectedError, &frame.second_expected_error, true}};
     WalrImage images[std::size(members)] = {};
     for (std::size_t i = 0; i < std::size(members); ++i) {
       const auto& [texture, image, output] = members[i];
