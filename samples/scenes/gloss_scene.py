@@ -1,0 +1,59 @@
+"""The scene gloss: a floor whose roughness rises from left to right, and a still mirror that a ball moves past."""
+
+import math
+
+from box_scenes import room
+from gltf_writer import Gltf, Mesh, png, turn
+
+SIZE, TILES = 96, 12
+
+
+def picture(texel):
+    """`texel`: RGB of a place from left to right, 0 to 1, and of a tile, which is metal or not."""
+    tile = SIZE // TILES
+    return png(SIZE, SIZE, [sum((texel((x + 0.5) / SIZE, (x // tile + y // tile) % 2 == 1) for x in range(SIZE)), [])
+                            for y in range(SIZE)], 3)
+
+
+def metal(color, roughness):
+    return {"baseColorFactor": [*color, 1.0], "metallicFactor": 1.0, "roughnessFactor": roughness}
+
+
+def ball(center, radius):
+    def point(u, v):
+        around, up = 2 * math.pi * u, math.pi * (v - 0.5)
+        return (center[0] + radius * math.cos(up) * math.sin(around), center[1] + radius * math.sin(up),
+                center[2] + radius * math.cos(up) * math.cos(around))
+
+    return Mesh().surface(point, 48, 24, closed=True)
+
+
+def make_gloss():
+    """Tiles of metal and of varnished stone, blocks and poles on them, a golden ball, and a mirror on the back wall."""
+    scene = Gltf("gloss", [1.6, 2.1, 2.8])
+    room(scene, scene.material("plaster", (0.7, 0.69, 0.63)))
+    color = scene.texture("tiles", picture(lambda place, is_metal: [215, 205, 190] if is_metal else [40, 70, 120]))
+    # Green: roughness, blue: metallic.
+    gloss = scene.texture("gloss", picture(lambda place, is_metal: [0, round(255 * place), 255 if is_metal else 0]))
+    ramp = scene.material("ramp", (1.0, 1.0, 1.0), pbrMetallicRoughness={
+        "baseColorTexture": {"index": color}, "metallicRoughnessTexture": {"index": gloss}})
+    floor = Mesh()
+    floor.quad((-1.98, 0.005, 2.48), (3.96, 0, 0), (0, 0, -4.96))
+    scene.mesh("ramp", floor, ramp, textured=True)
+    mirror = Mesh()
+    mirror.quad((-1.4, 0.35, -2.48), (2.8, 0, 0), (0, 1.9, 0))
+    scene.mesh("mirror", mirror, scene.material("mirror", (0, 0, 0), pbrMetallicRoughness=metal((0.95, 0.95, 0.95), 0.03)))
+    for i, paint in enumerate(((0.7, 0.15, 0.1), (0.2, 0.5, 0.2), (0.15, 0.3, 0.7), (0.75, 0.6, 0.2))):
+        x = -1.35 + 0.9 * i
+        scene.mesh(f"block {i}", Mesh().block((x, 0.2, -0.3), (0.3, 0.4, 0.3), 20.0 * i), scene.material(f"paint {i}", paint))
+        scene.mesh(f"pole {i}", Mesh().block((x + 0.42, 0.5, -0.5), (0.03, 1.0, 0.03)), scene.material(f"wood {i}", (0.8, 0.68, 0.4)))
+    gold = scene.material("gold", (0, 0, 0), pbrMetallicRoughness=metal((1.0, 0.77, 0.34), 0.25))
+    mover = scene.mesh("ball", ball((0.0, 0.0, 0.0), 0.3), gold, translation=[-1.2, 0.75, -1.4])
+    frames = 48
+    scene.animate(mover, "translation", [(round(-1.2 + 0.05 * i, 6), 0.75, -1.4) for i in range(frames)])
+    scene.animate(mover, "rotation", [turn((0.0, 1.0, 0.0), 4.0 * i) for i in range(frames)])
+    steps = [max(0, i - 3) for i in range(frames)]
+    scene.camera([(round(-0.5 + 0.02 * s, 6), 1.15, round(2.2 - 0.015 * s, 6)) for s in steps],
+                 [(round(-0.1 + 0.008 * s, 6), 0.25, -0.6) for s in steps])
+    scene.camera([(0.9, 1.25, 1.2)] * frames, [(-0.1, 1.05, -2.48)] * frames, "mirror")
+    return scene
