@@ -64,6 +64,9 @@ void renderFrames(RenderArguments& arguments) {
 
   const std::unique_ptr<GpuDevice> gpu = tracingDevice(arguments);
   checkResampledFrames(options.resampledFrames, options.light, gpu != nullptr);
+  if (options.specular && options.resampledFrames > 0) {
+    throw UsageError("--specular and --resampled-frames: only diffuse light can be resampled; leave out one of them");
+  }
   if (gpu) {
     options.otherTracer = [&gpu](const render::World& world) {
       return std::make_unique<gpu_render::FilmTracer>(*gpu, world);
@@ -156,6 +159,9 @@ void registerRender(CLI::App& program) {
                    "Diffuse lobe of all materials: lambert (default), or disney, the one of Blender's Principled BSDF")
       ->transform(CLI::CheckedTransformer(std::map<std::string, render::DiffuseModel>{
           {"lambert", render::DiffuseModel::Lambert}, {"disney", render::DiffuseModel::Disney}}));
+  command->add_flag("--specular", options.specular,
+                    "Materials reflect with the specular lobe of glTF, too: frames and references also hold its light, "
+                    "distances, roughness and albedo");
   command->add_option("--threads", options.threads, "Number of threads for --tracer cpu; 0: one per core")
       ->capture_default_str();
   addTracerOption(*command, arguments->tracer);

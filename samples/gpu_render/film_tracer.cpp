@@ -32,11 +32,15 @@ class FilmTracer::Images {
     textures_ = {declare("direct light", color), declare("indirect light", color), declare("normal", color),
                  declare("albedo", color),       declare("emission", color),       declare("motion", color),
                  declare("depth", kDepthFormat), declare("object id", kIdFormat)};
-    addTrace(graph_, scene, Precision::Float, inputs_, textures_);
-    for (const fg::Texture texture : {textures_.direct, textures_.indirect, textures_.normal, textures_.albedo,
-                                      textures_.emission, textures_.motion, textures_.depth, textures_.objectId}) {
-      graph_.exported(texture, fg::vk::kReadable);
+    if (scene.specular()) {
+      textures_.specular = declare("specular light", color);
+      textures_.specularAlbedo = declare("specular albedo", color);
     }
+    addTrace(graph_, scene, Precision::Float, inputs_, textures_);
+    std::vector<fg::Texture> traced = {textures_.direct,   textures_.indirect, textures_.normal, textures_.albedo,
+                                       textures_.emission, textures_.motion,   textures_.depth,  textures_.objectId};
+    if (scene.specular()) traced.insert(traced.end(), {textures_.specular, textures_.specularAlbedo});
+    for (const fg::Texture texture : traced) graph_.exported(texture, fg::vk::kReadable);
     readback_.emplace(gpu, graph_, 1);
     direct_ = readback_->readBack(textures_.direct);
     indirect_ = readback_->readBack(textures_.indirect);
@@ -46,6 +50,9 @@ class FilmTracer::Images {
     motion_ = readback_->readBack(textures_.motion);
     depth_ = readback_->readBack(textures_.depth);
     objectId_ = readback_->readBack(textures_.objectId);
+    if (!scene.specular()) return;
+    specular_ = readback_->readBack(textures_.specular);
+    specularAlbedo_ = readback_->readBack(textures_.specularAlbedo);
   }
 
   [[nodiscard]] fg::Extent extent() const { return extent_; }
@@ -59,6 +66,21 @@ class FilmTracer::Images {
 
   [[nodiscard]] std::vector<glm::vec4> direct() const { return readback_->read<glm::vec4>(direct_, slot_); }
   [[nodiscard]] std::vector<glm::vec4> indirect() const { return readback_->read<glm::vec4>(indirect_, slot_); }
+
+  // Only of scenes with specular light.
+  [[nodiscard]] std::vector<glm::vec4> specular() const { return readback_->read<glm::vec4>(specular_, slot_); }
+  [[nodiscard]] std::vector<glm::vec4> specularAlbedo() const {
+    return readback_->read<glm::vec4>(specularAlbedo_, slot_);
+  }
+
+  void readSpecular(std::vector<render::SpecularPixel>& pixels) const {
+    const auto normal = readback_->read<glm::vec4>(normal_, slot_);
+    const auto albedo = specularAlbedo();
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      pixels[i].albedo = albedo[i];
+      pixels[i].roughness = normal[i].w;
+    }
+  }
 
   void readGBuffer(const render::View& view, std::vector<render::GBufferPixel>& pixels) const {
     const auto normal = readback_->read<glm::vec4>(normal_, slot_);
@@ -97,6 +119,8 @@ class FilmTracer::Images {
   ReadbackGraph::Index motion_ = 0;
   ReadbackGraph::Index depth_ = 0;
   ReadbackGraph::Index objectId_ = 0;
+  ReadbackGraph::Index specular_ = 0;
+  ReadbackGraph::Index specularAlbedo_ = 0;
   std::uint32_t slot_ = 0;
 };
 
@@ -104,16 +128,25 @@ struct FilmTracer::Sum {
   std::vector<glm::dvec3> direct;
   std::vector<glm::dvec3> indirect;
   std::vector<double> paths;
+  std::vector<glm::dvec4> specular = {};  // w: inverse distances. Empty without specular light.
+  std::vector<double> specularPaths = {};
   std::uint64_t rays = 0;
 
   [[nodiscard]] glm::dvec3 mean(const std::vector<glm::dvec3>& sums, std::size_t index) const {
     return sums[index] / std::max(paths[index], 1.0);
+  }
+  [[nodiscard]] glm::dvec4 meanSpecular(std::size_t index) const {
+    return specular[index] / std::max(specularPaths[index], 1.0);
   }
   void add(const Sum& other) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       direct[i] += other.direct[i];
       indirect[i] += other.indirect[i];
       paths[i] += other.paths[i];
+    }
+    for (std::size_t i = 0; i < specular.size(); ++i) {
+      specular[i] += other.specular[i];
+      specularPaths[i] += other.specularPaths[i];
     }
     rays += other.rays;
   }
@@ -140,6 +173,10 @@ FilmTracer::Sum FilmTracer::trace(const render::View& view, render::SamplingSett
   const auto samplesAtOnce =
       static_cast<std::uint32_t>(std::clamp<std::uint64_t>(kPathsOfDispatch / pixels, 1, kMostSamples));
   Sum sum{std::vector<glm::dvec3>(pixels), std::vector<glm::dvec3>(pixels), std::vector<double>(pixels)};
+  if (scene_.specular()) {
+    sum.specular.resize(pixels);
+    sum.specularPaths.resize(pixels);
+  }
   TraceData data{sceneState(world_), scene_.placements(world_), {}};
   const std::uint32_t total = settings.samples;
   const std::uint32_t first = settings.firstSample;
@@ -149,7 +186,10 @@ FilmTracer::Sum FilmTracer::trace(const render::View& view, render::SamplingSett
     settings.samples = std::min(samplesAtOnce, total - done);
     data.constants = traceConstants(world_, view, settings, coverage);
     images_->trace(data);
-    if (film != nullptr && done == 0) images_->readGBuffer(view, film->gbuffer);
+    if (film != nullptr && done == 0) {
+      images_->readGBuffer(view, film->gbuffer);
+      if (scene_.specular()) images_->readSpecular(film->specular);
+    }
     const std::vector<glm::vec4> direct = images_->direct();
     const std::vector<glm::vec4> indirect = images_->indirect();
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -158,6 +198,15 @@ FilmTracer::Sum FilmTracer::trace(const render::View& view, render::SamplingSett
       sum.indirect[i] += glm::dvec3(indirect[i]) * paths;
       sum.paths[i] += paths;
       sum.rays += static_cast<std::uint64_t>(indirect[i].w);
+    }
+    if (scene_.specular()) {
+      const std::vector<glm::vec4> specular = images_->specular();
+      const std::vector<glm::vec4> albedo = images_->specularAlbedo();
+      for (std::size_t i = 0; i < pixels; ++i) {
+        const double paths = albedo[i].w;
+        sum.specular[i] += glm::dvec4(specular[i]) * paths;
+        sum.specularPaths[i] += paths;
+      }
     }
     done += settings.samples;
     const std::uint64_t reached = pixels * done / total;
@@ -173,10 +222,16 @@ render::Film FilmTracer::film(const render::View& view, const render::SamplingSe
   film.height = view.height;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   film.gbuffer.resize(pixels);
+  if (scene_.specular()) film.specular.resize(pixels);
   const Sum sum = trace(view, settings, {}, &film);
   for (std::size_t i = 0; i < pixels; ++i) {
     film.direct.emplace_back(sum.mean(sum.direct, i));
     film.indirect.emplace_back(sum.mean(sum.indirect, i));
+  }
+  for (std::size_t i = 0; i < film.specular.size(); ++i) {
+    const glm::dvec4 mean = sum.meanSpecular(i);
+    film.specular[i].light = mean;
+    film.specular[i].distance = sum.specularPaths[i] > 0.0 ? render::distanceOf(mean.w) : 0.0F;
   }
   film.rays = sum.rays;
   return film;
@@ -207,6 +262,8 @@ walr::Reference FilmTracer::reference(const render::View& view, const render::Sa
   }
   const auto image = [&] { return walr::Image(static_cast<int>(view.width), static_cast<int>(view.height), 3); };
   walr::Reference reference{image(), image(), inHalves ? image() : walr::Image()};
+  if (scene_.specular()) reference.specular = image();
+  if (scene_.specular() && inHalves) reference.specularHalf = image();
   const auto set = [](walr::Image& target, std::size_t index, const glm::dvec3& value) {
     for (int c = 0; c < 3; ++c) target.pixel(index)[static_cast<std::size_t>(c)] = static_cast<float>(value[c]);
   };
@@ -217,6 +274,13 @@ walr::Reference FilmTracer::reference(const render::View& view, const render::Sa
     const glm::dvec3 nothing(std::numeric_limits<double>::quiet_NaN());
     set(reference.direct, i, covered ? sum.mean(sum.direct, i) : nothing);
     set(reference.indirect, i, covered ? sum.mean(sum.indirect, i) : nothing);
+    if (scene_.specular()) {
+      set(reference.specular, i, covered ? glm::dvec3(sum.meanSpecular(i)) : nothing);
+      if (first) {
+        const bool both = first->specularPaths[i] > 0 && first->specularPaths[i] < sum.specularPaths[i];
+        set(reference.specularHalf, i, covered ? glm::dvec3((both ? *first : sum).meanSpecular(i)) : nothing);
+      }
+    }
     if (!first) continue;
     // Where one half met no diffuse surface, the two say nothing of each other.
     const bool both = first->paths[i] > 0 && first->paths[i] < sum.paths[i];

@@ -73,6 +73,7 @@ class GpuScene::Upload {
 GpuScene::GpuScene(const GpuDevice& gpu, const render::World& world)
     : device_((requireRayQueries(gpu), gpu.device().context())),
       functions_(RayFunctions::load(device_)),
+      specular_(world.scene().specular),
       instances_(world.instances().size()),
       punctualLights_(world.lights().punctual().size()),
       emitters_(emissiveTriangles(world)) {
@@ -206,7 +207,8 @@ void GpuScene::bind(TracePipeline::Bindings& bindings) const {
 
 void GpuScene::prepare(Precision precision) {
   auto& pipeline = pipelines_.at(static_cast<std::size_t>(precision));
-  const fg::Shader& shader = precision == Precision::Half ? shaders::traceHalf : shaders::traceFloat;
+  const fg::Shader& single = specular_ ? shaders::traceSpecular : shaders::traceFloat;
+  const fg::Shader& shader = precision == Precision::Half ? shaders::traceHalf : single;
   if (!pipeline) pipeline = std::make_unique<TracePipeline>(device_, functions_, shader);
 }
 

@@ -50,6 +50,8 @@ class GpuScene {
   [[nodiscard]] const TracePipeline& pipeline(Precision precision) const;
 
   [[nodiscard]] const fg::vk::DeviceContext& device() const { return device_; }
+  /// Whether frames in float hold specular light.
+  [[nodiscard]] bool specular() const { return specular_; }
   /// Numbers of array elements that change from frame to frame.
   [[nodiscard]] std::size_t instances() const { return instances_; }
   [[nodiscard]] std::size_t punctualLights() const { return punctualLights_; }
@@ -71,6 +73,7 @@ class GpuScene {
 
   const fg::vk::DeviceContext& device_;
   RayFunctions functions_;
+  bool specular_;
   std::size_t instances_;
   std::size_t punctualLights_;
   std::size_t emitters_;

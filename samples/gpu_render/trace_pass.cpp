@@ -42,17 +42,21 @@ void addTrace(fg::Graph& graph, const GpuScene& scene, Precision precision, cons
     const char* binding;
     fg::Texture TracedTextures::*texture;
   };
-  static constexpr std::array<Output, 8> kOutputs{{{"outDirect", &TracedTextures::direct},
-                                                   {"outIndirect", &TracedTextures::indirect},
-                                                   {"outNormal", &TracedTextures::normal},
-                                                   {"outAlbedo", &TracedTextures::albedo},
-                                                   {"outEmission", &TracedTextures::emission},
-                                                   {"outMotion", &TracedTextures::motion},
-                                                   {"outDepth", &TracedTextures::depth},
-                                                   {"outObjectId", &TracedTextures::objectId}}};
+  static constexpr std::array<Output, 10> kAll{{{"outDirect", &TracedTextures::direct},
+                                                {"outIndirect", &TracedTextures::indirect},
+                                                {"outNormal", &TracedTextures::normal},
+                                                {"outAlbedo", &TracedTextures::albedo},
+                                                {"outEmission", &TracedTextures::emission},
+                                                {"outMotion", &TracedTextures::motion},
+                                                {"outDepth", &TracedTextures::depth},
+                                                {"outObjectId", &TracedTextures::objectId},
+                                                {"outSpecular", &TracedTextures::specular},
+                                                {"outSpecularAlbedo", &TracedTextures::specularAlbedo}}};
+  const bool specular = precision == Precision::Float && scene.specular();
+  const std::span<const Output> outputs = std::span(kAll).first(specular ? 10 : 8);
   const fg::Extent extent = graph.textureDesc(textures.depth).extent;
-  fg::PassBuilder pass =
-      graph.callback(kTracePass, [&scene, precision, inputs, textures, extent](const fg::RecordContext& context) {
+  fg::PassBuilder pass = graph.callback(
+      kTracePass, [&scene, precision, inputs, textures, extent, outputs](const fg::RecordContext& context) {
         scene.recordBuild(context.commandBuffer, context.buffer(inputs.placements));
         const TracePipeline& pipeline = scene.pipeline(precision);
         TracePipeline::Bindings bindings(pipeline);
@@ -61,7 +65,7 @@ void addTrace(fg::Graph& graph, const GpuScene& scene, Precision precision, cons
             .buffer("Instances", context.buffer(inputs.instances))
             .buffer("PunctualLights", context.buffer(inputs.punctualLights))
             .buffer("Emitters", context.buffer(inputs.emitters));
-        for (const Output& output : kOutputs) bindings.image(output.binding, context.view(textures.*output.texture));
+        for (const Output& output : outputs) bindings.image(output.binding, context.view(textures.*output.texture));
         pipeline.dispatch(context.commandBuffer, bindings, extent.width, extent.height);
       });
   pass.access(inputs.placements, fg::Access::TransferRead);
@@ -69,7 +73,7 @@ void addTrace(fg::Graph& graph, const GpuScene& scene, Precision precision, cons
   for (const fg::Buffer buffer : {inputs.instances, inputs.punctualLights, inputs.emitters}) {
     pass.access(buffer, fg::Access::StorageRead);
   }
-  for (const Output& output : kOutputs) {
+  for (const Output& output : outputs) {
     textures.*output.texture = pass.access(textures.*output.texture, fg::Access::StorageWrite);
   }
 }

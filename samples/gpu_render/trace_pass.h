@@ -36,8 +36,10 @@ struct TracedTextures {
   fg::Texture albedo;
   fg::Texture emission;
   fg::Texture motion;
-  fg::Texture depth;     ///< R32F: linear view depth; `kBackgroundDepth` on sky.
-  fg::Texture objectId;  ///< R32UI: index of the instance; 0xffffffff on sky.
+  fg::Texture depth;                ///< R32F: linear view depth; `kBackgroundDepth` on sky.
+  fg::Texture objectId;             ///< R32UI: index of the instance; 0xffffffff on sky.
+  fg::Texture specular = {};        ///< See shaders/trace.comp; only with `Scene::specular` and `Precision::Float`.
+  fg::Texture specularAlbedo = {};  ///< The same.
 
   /// The format of the textures without one of their own.
   static VkFormat format(Precision precision);

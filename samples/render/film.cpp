@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "samples/render/exact/specular.h"
 #include "samples/render/path_tracer.h"
 #include "samples/render/reflection.h"
 #include "samples/render/tiles.h"
@@ -44,6 +45,26 @@ class PixelTracer {
     light.indirect = chosen.indirect;
     light.rays += chosen.rays;
     return light;
+  }
+
+  // What the specular lobe reflects; without light unless `sampled`. Counts rays.
+  SpecularPixel specular(const Surface& surface, bool sampled, std::uint64_t& rays) const {
+    SpecularPixel pixel;
+    pixel.albedo = specularAlbedo(surface);
+    pixel.roughness = surface.roughness;
+    if (!sampled) return pixel;
+    glm::dvec3 light(0.0);
+    double inverseDistance = 0.0;
+    for (std::uint32_t s = 0; s < settings_.samples; ++s) {
+      Sampler sampler(settings_.sampler, settings_.seed ^ exact::kSpecularSeed, pixel_, settings_.firstSample + s);
+      const PathSample path = tracePath(world_, surface, bounces_, sampler, Lobe::Specular);
+      light += path.direct + path.indirect;
+      inverseDistance += 1.0 / path.distance;
+      rays += path.rays;
+    }
+    pixel.light = glm::vec3(light / static_cast<double>(settings_.samples)) / pixel.albedo;
+    pixel.distance = distanceOf(inverseDistance / settings_.samples);
+    return pixel;
   }
 
   // The light of a glossy metal, all of it counted as indirect, divided by the mean of the albedos that it reflects.
@@ -113,6 +134,7 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
   film.gbuffer.resize(pixels);
   film.direct.resize(pixels);
   film.indirect.resize(pixels);
+  if (world.scene().specular) film.specular.resize(pixels);
   std::atomic<std::uint64_t> rays = 0;
   forEachTile(
       view.width, view.height, settings.threads,
@@ -126,7 +148,7 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
             ++tileRays;
             const bool byMaterial = settings.gbuffer == GBufferMode::Material;
             const bool glossy = byMaterial && hit.surface && glossOf(*hit.surface) == Gloss::Glossy;
-            if (!hit.surface || (!glossy && hit.pixel.albedo == glm::vec3(0.0F))) {
+            if (!hit.surface) {
               continue;
             }
             const glm::ivec2 pixel(x, y);
@@ -134,6 +156,10 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
             const bool sampled = settings.light.hasSample(pixel, settings.lightOffset);
             const PixelTracer tracer(world, settings, sampled ? settings.bounces : 0,
                                      sampled ? seedOf(texel) : seedOf(pixel));
+            if (!film.specular.empty()) film.specular[index] = tracer.specular(*hit.surface, sampled, tileRays);
+            if (!glossy && hit.pixel.albedo == glm::vec3(0.0F)) {
+              continue;
+            }
             const PixelLight light = glossy                ? tracer.glossy(hit, film.gbuffer[index].albedo)
                                      : settings.reservoirs ? tracer.resampled(hit, *settings.reservoirs, x, y)
                                                            : tracer.diffuse(*hit.surface);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "samples/render/sampler.h"
 #include "samples/render/view.h"
 #include "samples/render/world.h"
+#include "samples/sequence/frame.h"
 
 namespace walr::render {
 
@@ -35,14 +37,29 @@ struct SamplingSettings {
   std::function<void(std::uint64_t)> pixelsDone = [](std::uint64_t) {};
 };
 
+/// What a pixel's specular lobe reflects.
+struct SpecularPixel {
+  glm::vec3 light{0.0F};  ///< Mean of all light of `Lobe::Specular`, divided by `albedo`.
+  /// Harmonic mean of `PathSample::distance`, because parallax goes with its inverse; 0 without a sample.
+  float distance = 0.0F;
+  glm::vec3 albedo{0.0F};  ///< See `specularAlbedo`; 0 on sky, like `roughness`.
+  float roughness = 0.0F;
+};
+
+/// A distance from the mean of its inverses: at most `kBackgroundDepth`, which stands for paths that met nothing.
+inline float distanceOf(double inverse) {
+  return static_cast<float>(1.0 / std::max(inverse, 1.0 / double{kBackgroundDepth}));
+}
+
 /// One rendered frame: rows from the top, no padding.
 struct Film {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<GBufferPixel> gbuffer;
-  std::vector<glm::vec3> direct;    ///< Mean of `PathSample::direct`; 0 where the albedo is 0.
-  std::vector<glm::vec3> indirect;  ///< Mean of `PathSample::indirect`; 0 where the albedo is 0.
-  std::uint64_t rays = 0;           ///< Rays traced.
+  std::vector<glm::vec3> direct;        ///< Mean of `PathSample::direct`; 0 where the albedo is 0.
+  std::vector<glm::vec3> indirect;      ///< Mean of `PathSample::indirect`; 0 where the albedo is 0.
+  std::vector<SpecularPixel> specular;  ///< Empty without `Scene::specular`.
+  std::uint64_t rays = 0;               ///< Rays traced.
 };
 
 /// Render a frame: one primary ray per pixel, and `settings.samples` paths from the point that it hits.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "samples/render/exact/specular.h"
 #include "samples/render/path_tracer.h"
 #include "samples/render/tiles.h"
 
@@ -14,15 +15,20 @@ namespace {
 struct LightSum {
   glm::dvec3 direct{0.0};
   glm::dvec3 indirect{0.0};
+  glm::dvec3 specular{0.0};
   std::uint32_t paths = 0;
+  std::uint32_t specularPaths = 0;
 
   LightSum& operator+=(const LightSum& other) {
     direct += other.direct;
     indirect += other.indirect;
+    specular += other.specular;
     paths += other.paths;
+    specularPaths += other.specularPaths;
     return *this;
   }
   [[nodiscard]] glm::dvec3 mean(const glm::dvec3& sum) const { return sum / std::max(static_cast<double>(paths), 1.0); }
+  [[nodiscard]] glm::dvec3 meanSpecular() const { return specular / std::max(static_cast<double>(specularPaths), 1.0); }
 };
 
 bool diffuse(const PrimaryHit& hit) {
@@ -32,7 +38,7 @@ bool diffuse(const PrimaryHit& hit) {
 class ReferenceTracer {
  public:
   ReferenceTracer(const World& world, const View& view, const SamplingSettings& settings, bool wholePixel)
-      : world_(world), view_(view), settings_(settings), wholePixel_(wholePixel) {}
+      : world_(world), view_(view), settings_(settings), wholePixel_(wholePixel), specular_(world.scene().specular) {}
 
   // Adds up samples of one half; the two halves use different random sequences.
   LightSum trace(std::uint32_t x, std::uint32_t y, std::uint32_t half, std::uint32_t paths, std::uint64_t& rays) const {
@@ -41,16 +47,25 @@ class ReferenceTracer {
     if (!wholePixel_) {
       hit = tracePrimary(world_, view_, x, y);
       ++rays;
-      if (!diffuse(hit)) return sum;
+      if (!lit(hit)) return sum;
     }
+    const std::uint32_t seed = half == 0 ? settings_.seed : seedOfSecondHalf(settings_.seed);
+    const std::uint32_t pixel = (y << 16U) | x;
     for (std::uint32_t s = 0; s < paths; ++s) {
-      Sampler sampler(settings_.sampler, half == 0 ? settings_.seed : seedOfSecondHalf(settings_.seed), (y << 16U) | x,
-                      settings_.firstSample + s);
+      Sampler sampler(settings_.sampler, seed, pixel, settings_.firstSample + s);
       if (wholePixel_) {
         View view = view_;
         view.jitter = sampler.next2D() - 0.5F;
         hit = tracePrimary(world_, view, x, y);
         ++rays;
+        if (!lit(hit)) continue;
+      }
+      if (specular_) {
+        Sampler other(settings_.sampler, seed ^ exact::kSpecularSeed, pixel, settings_.firstSample + s);
+        const PathSample path = tracePath(world_, *hit.surface, settings_.bounces, other, Lobe::Specular);
+        sum.specular += (path.direct + path.indirect) / specularAlbedo(*hit.surface);
+        ++sum.specularPaths;
+        rays += path.rays;
         if (!diffuse(hit)) continue;
       }
       const PathSample path = tracePath(world_, *hit.surface, settings_.bounces, sampler);
@@ -63,10 +78,13 @@ class ReferenceTracer {
   }
 
  private:
+  [[nodiscard]] bool lit(const PrimaryHit& hit) const { return specular_ ? hit.surface.has_value() : diffuse(hit); }
+
   const World& world_;
   const View& view_;
   const SamplingSettings& settings_;
   bool wholePixel_;
+  bool specular_;
 };
 
 void set(walr::Image& image, std::size_t index, const glm::dvec3& value) {
@@ -90,6 +108,9 @@ walr::Reference renderReference(const World& world, const View& view, const Samp
   const auto image = [&] { return walr::Image(static_cast<int>(view.width), static_cast<int>(view.height), 3); };
   const bool inHalves = settings.samples % 2 == 0;
   walr::Reference reference{image(), image(), inHalves ? image() : walr::Image()};
+  const bool specular = world.scene().specular;
+  if (specular) reference.specular = image();
+  if (specular && inHalves) reference.specularHalf = image();
   const ReferenceTracer tracer(world, view, settings, coverage.wholePixel);
   std::atomic<std::uint64_t> allRays = 0;
   forEachTile(
@@ -104,6 +125,8 @@ walr::Reference renderReference(const World& world, const View& view, const Samp
               set(reference.direct, index, nothing);
               set(reference.indirect, index, nothing);
               if (inHalves) set(reference.indirectHalf, index, nothing);
+              if (specular) set(reference.specular, index, nothing);
+              if (specular && inHalves) set(reference.specularHalf, index, nothing);
               continue;
             }
             LightSum sum = tracer.trace(x, y, 0, inHalves ? settings.samples / 2 : settings.samples, tileRays);
@@ -113,9 +136,12 @@ walr::Reference renderReference(const World& world, const View& view, const Samp
               // Where one half met no diffuse surface, the two say nothing of each other.
               const bool both = first.paths > 0 && first.paths < sum.paths;
               set(reference.indirectHalf, index, both ? first.mean(first.indirect) : sum.mean(sum.indirect));
+              const bool bothSpecular = first.specularPaths > 0 && first.specularPaths < sum.specularPaths;
+              if (specular) set(reference.specularHalf, index, (bothSpecular ? first : sum).meanSpecular());
             }
             set(reference.direct, index, sum.mean(sum.direct));
             set(reference.indirect, index, sum.mean(sum.indirect));
+            if (specular) set(reference.specular, index, sum.meanSpecular());
           }
         }
         allRays += tileRays;

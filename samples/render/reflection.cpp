@@ -1,14 +1,11 @@
 #include "samples/render/reflection.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "samples/render/exact/path.h"
+#include "samples/render/exact/specular.h"
 #include "samples/render/path_tracer.h"
 
 namespace walr::render {
@@ -21,35 +18,8 @@ constexpr float kMirrorRoughness = 0.1F;
 // A path ends after this many reflections at metals.
 constexpr int kMostReflections = 8;
 
-glm::vec3 fresnel(const glm::vec3& reflectance, float cosine) {
-  const float x = 1.0F - glm::clamp(cosine, 0.0F, 1.0F);
-  return reflectance + (1.0F - reflectance) * (x * x * x * x * x);
-}
-
 bool leadsUnder(const Surface& surface, const glm::vec3& direction) {
   return glm::dot(surface.geometricNormal, direction) <= 0.0F;
-}
-
-// Smith's Lambda of a direction in the frame where the normal is +Z. The masking term is 1 / (1 + Lambda).
-float smith(const glm::vec3& direction, float alpha) {
-  const float tangent2 = (1.0F - direction.z * direction.z) / (direction.z * direction.z);
-  return 0.5F * (std::sqrt(1.0F + alpha * alpha * tangent2) - 1.0F);
-}
-
-// The inverse of `exact::fromLocal`.
-glm::vec3 toLocal(const glm::vec3& normal, const glm::vec3& direction) {
-  const glm::vec3 x = exact::fromLocal(normal, {1.0F, 0.0F, 0.0F});
-  const glm::vec3 y = exact::fromLocal(normal, {0.0F, 1.0F, 0.0F});
-  return {glm::dot(x, direction), glm::dot(y, direction), glm::dot(normal, direction)};
-}
-
-glm::vec3 visibleNormal(const glm::vec3& viewer, float alpha, const glm::vec2& random) {
-  const glm::vec3 stretched = glm::normalize(glm::vec3(alpha * viewer.x, alpha * viewer.y, viewer.z));
-  const float angle = 2.0F * std::numbers::pi_v<float> * random.x;
-  const float z = (1.0F - random.y) * (1.0F + stretched.z) - stretched.z;
-  const float radius = std::sqrt(std::max(1.0F - z * z, 0.0F));
-  const glm::vec3 normal = glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z) + stretched;
-  return glm::normalize(glm::vec3(alpha * normal.x, alpha * normal.y, std::max(normal.z, 1e-6F)));
 }
 
 }  // namespace
@@ -66,24 +36,20 @@ Reflection mirrored(const Surface& surface) {
   if (leadsUnder(surface, direction)) {
     return {direction, glm::vec3(0.0F)};
   }
-  return {direction, fresnel(surface.reflectance, glm::dot(surface.shadingNormal, surface.towardsViewer))};
+  const float cosine = glm::dot(surface.shadingNormal, surface.towardsViewer);
+  return {direction, glm::mix(surface.reflectance, glm::vec3(1.0F), exact::grazing(cosine))};
 }
 
 Reflection sampleReflection(const Surface& surface, const glm::vec2& random) {
-  const float alpha = surface.roughness * surface.roughness;
-  const glm::vec3 viewer = toLocal(surface.shadingNormal, surface.towardsViewer);
-  if (viewer.z <= 0.0F) {
-    return {};
-  }
-  const glm::vec3 normal = visibleNormal(viewer, alpha, random);
-  const glm::vec3 light = glm::reflect(-viewer, normal);
-  const glm::vec3 direction = exact::fromLocal(surface.shadingNormal, light);
-  if (light.z <= 0.0F || leadsUnder(surface, direction)) {
+  const float alpha = exact::alphaOf(surface.roughness);
+  const glm::vec3 direction = exact::reflectionDirection(surface.shadingNormal, surface.towardsViewer, alpha, random);
+  const float cosine = exact::lightCosine(surface.geometricNormal, surface.shadingNormal, direction);
+  if (cosine <= 0.0F) {
     return {direction, glm::vec3(0.0F)};
   }
-  const float masked = 1.0F + smith(viewer, alpha);
+  const exact::SpecularLobe lobe = exact::specularLobe(surface.shadingNormal, surface.towardsViewer, direction, alpha);
   return {direction,
-          fresnel(surface.reflectance, glm::dot(viewer, normal)) * (masked / (masked + smith(light, alpha)))};
+          glm::mix(surface.reflectance, glm::vec3(1.0F), lobe.grazing) * (lobe.value * cosine / lobe.density)};
 }
 
 GlossySample traceGlossy(const World& world, const Surface& surface, std::uint32_t bounces, Sampler& sampler,

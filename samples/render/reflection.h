@@ -30,9 +30,7 @@ struct Reflection {
 /// The reflection of a mirror.
 Reflection mirrored(const Surface& surface);
 
-/// Sample a reflection of a rough metal by the distribution of visible normals: GGX with Smith's height-correlated
-/// masking and Schlick's Fresnel term (glTF 2.0, appendix B), sampled with spherical caps (J. Dupuy and A. Benyoub,
-/// "Sampling Visible GGX Normals with Spherical Caps", HPG 2023).
+/// Sample a reflection of a rough metal by the distribution of visible normals (`exact::specularLobe`).
 Reflection sampleReflection(const Surface& surface, const glm::vec2& random);
 
 /// The result of a path from a glossy surface to the first surface that is not a metal.

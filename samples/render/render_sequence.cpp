@@ -36,6 +36,9 @@ const char* nameOf(Sampler::Kind kind) {
   return "independent";
 }
 
+// Not in the settings of earlier versions, which had no such light.
+constexpr const char* kSpecularKey = "specular";
+
 // Only in the settings of the tracer on the GPU, whose frames differ from the processor's by rounding.
 constexpr const char* kTracerKey = "tracer";
 
@@ -64,6 +67,7 @@ nlohmann::json describe(const RenderOptions& options, const std::string& content
       {"sampler", nameOf(options.sampler)},
       {"light_group", {options.light.columns, options.light.rows}},
   };
+  if (options.specular) settings[kSpecularKey] = true;
   if (options.otherTracer) settings[kTracerKey] = "gpu";
   return settings;
 }
@@ -95,7 +99,9 @@ void matchSettings(const RenderOptions& options, const std::string& contents) {
                      "' or of its sky have changed since the frames in this folder were rendered; use another --output "
                      "or remove the folder");
   }
-  if (before.contains(kTracerKey) && !settings.contains(kTracerKey)) refuse(kTracerKey);
+  for (const char* const key : {kSpecularKey, kTracerKey}) {
+    if (before.contains(key) && !settings.contains(key)) refuse(key);
+  }
 }
 
 std::string describeWork(const std::string& file, double seconds, std::uint64_t rays) {
@@ -164,6 +170,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
   Fingerprint contents;
   Scene scene = loadScene(options.scene, options.sky, &contents);
   scene.diffuseModel = options.diffuseModel;
+  scene.specular = options.specular;
   std::for_each(scene.warnings.begin(), scene.warnings.end(), observer.warning);
   const std::uint32_t camera = findCamera(scene, options.camera);
   prepareOutputDirectory(options.output);

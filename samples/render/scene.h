@@ -34,14 +34,15 @@ struct TextureCoordinates {
   bool operator==(const TextureCoordinates&) const = default;
 };
 
-/// A material of glTF's metallic-roughness model. At metallic 1 it has no diffuse lobe.
+/// A material of glTF's metallic-roughness model. At metallic 1 it has no diffuse lobe. The specular lobe is optional,
+/// see `Scene::specular`.
 struct Material {
   std::string name;
   glm::vec3 baseColor{1.0F};                              ///< Linear, 0..1.
   float baseAlpha = 1.0F;                                 ///< 0..1; used only with an `alphaCutoff`.
   float metallic = 0.0F;                                  ///< 0..1; the diffuse albedo is base colour * (1 - metallic).
   glm::vec3 emission{0.0F};                               ///< Radiance: emissive factor * emissive strength.
-  float roughness = 1.0F;                                 ///< 0..1; matters for `DiffuseModel::Disney`.
+  float roughness = 1.0F;                                 ///< 0..1; of `DiffuseModel::Disney` and the specular lobe.
   float normalScale = 1.0F;                               ///< Multiplies x and y of the normal map.
   bool doubleSided = false;                               ///< Emits from both sides; reflection is always two-sided.
   std::optional<float> alphaCutoff;                       ///< Cut-out: alpha below is a hole (glTF alpha mode MASK).
@@ -131,6 +132,8 @@ struct Scene {
   std::vector<Node> nodes;  ///< Parents before children.
   std::vector<AnimationChannel> animation;
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
+  /// Materials have the specular lobe of glTF's appendix B, which takes its share of light from the diffuse lobe.
+  bool specular = false;
   glm::vec3 skyRadiance{0.0F};  ///< Constant, linear RGB; used without a map.
   std::optional<SkyMap> skyMap;
   std::vector<std::string> warnings;  ///< Features of the file that are not supported, and values that were replaced.

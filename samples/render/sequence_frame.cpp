@@ -49,6 +49,13 @@ walr::Frame toFrame(const Film& film, const View& view, int number) {
   });
   frame.motion = toImage(film, &GBufferPixel::motion);
   frame.emission = toImage(film, &GBufferPixel::emission);
+  if (!film.specular.empty()) {
+    frame.specular = toImage(film, 3, [&](std::size_t i, int c) { return film.specular[i].light[c]; });
+    frame.specularDistance =
+        toImage(film, 1, [&](std::size_t i, int /*component*/) { return film.specular[i].distance; });
+    frame.roughness = toImage(film, 1, [&](std::size_t i, int /*component*/) { return film.specular[i].roughness; });
+    frame.specularAlbedo = toImage(film, 3, [&](std::size_t i, int c) { return film.specular[i].albedo[c]; });
+  }
   frame.objectId = toImage(film, 1, [&](std::size_t i, int /*component*/) {
     const std::uint32_t id = film.gbuffer[i].objectId;
     return id == GBufferPixel::kSky ? -1.0F : static_cast<float>(id);

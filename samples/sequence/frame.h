@@ -40,6 +40,8 @@ struct Reference {
   Image indirect = {};  ///< 3 components: demodulated diffuse indirect radiance; may be empty if direct light is read.
   Image direct = {};    ///< 3 components: demodulated diffuse direct radiance; may be empty.
   Image indirectHalf = {};  ///< 3 components: the mean of one half of the samples of `indirect`; may be empty.
+  Image specular = {};      ///< 3 components: see `Frame::specular`; may be empty.
+  Image specularHalf = {};  ///< 3 components: the mean of one half of the samples of `specular`; may be empty.
 };
 
 /// The non-finite values in one channel of a file: their number and the first position.
@@ -70,8 +72,16 @@ struct Frame {
   /// 3 components: radiance of light that is not diffuse (glossy, transmitted, scattered in volumes); empty unless
   /// requested, and if the files hold none.
   Image nonDiffuse;
-  Image objectId;  ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
-  Camera camera;   ///< Of the images.
+  /// 3 components: light that the specular lobe reflects, divided by `specularAlbedo`. It and the next three images are
+  /// empty unless requested, and if the files hold none.
+  Image specular;
+  /// 1 component: distance from the surface to the first hit along the specular path, scene units; `kBackgroundDepth`
+  /// if it met nothing, 0 where there was no sample.
+  Image specularDistance;
+  Image roughness;       ///< 1 component: linear (glTF), 0..1.
+  Image specularAlbedo;  ///< 3 components: directional albedo of the specular lobe (walr/specular_albedo.h); 0 on sky.
+  Image objectId;        ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
+  Camera camera;         ///< Of the images.
   std::optional<ImagePlace> place;  ///< Absent: the images are the whole picture.
   /// Projection and jitter of the frame before; for the first frame, those of this frame.
   glm::mat4 previousProjection{1.0F};

@@ -28,6 +28,12 @@ void writeFrame(const std::filesystem::path& directory, const Frame& frame) {
   if (!frame.emission.empty()) {
     appendChannels(channels, "Emission", "RGB", frame.emission);
   }
+  if (!frame.specular.empty()) {
+    appendChannels(channels, "Specular", "RGB", frame.specular);
+    appendChannels(channels, "SpecularDistance", "Z", frame.specularDistance, ExrType::Float);
+    appendChannels(channels, "Roughness", "Y", frame.roughness);
+    appendChannels(channels, "SpecularAlbedo", "RGB", frame.specularAlbedo);
+  }
   if (!frame.objectId.empty()) {
     appendChannels(channels, "ObjectId", "Y", frame.objectId, ExrType::Float);
   }
@@ -53,6 +59,12 @@ void writeReference(const std::filesystem::path& directory, int number, const Re
   }
   if (!reference.indirectHalf.empty()) {
     appendChannels(channels, "IndirectA", "RGB", reference.indirectHalf);
+  }
+  if (!reference.specular.empty()) {
+    appendChannels(channels, "Specular", "RGB", reference.specular);
+  }
+  if (!reference.specularHalf.empty()) {
+    appendChannels(channels, "SpecularA", "RGB", reference.specularHalf);
   }
   writeExr(directory / frameFileName("ref", number, "exr"), channels);
 }

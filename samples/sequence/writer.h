@@ -12,7 +12,8 @@ std::string frameFileName(const std::string& prefix, int number, const std::stri
 
 /// Write `noisy_FFFF.exr` in the project's own layout (samples/docs/sequences.md), completely or not at all. The frame
 /// must follow the project's conventions: normals in view space; motion in pixels, y down, with its z; depth
-/// `kBackgroundDepth` on sky. Empty direct light, emission and object ids are left out. `reference` and `nonFinite` are
+/// `kBackgroundDepth` on sky. Empty direct light, emission, specular light and object ids are left
+/// out. `reference` and `nonFinite` are
 /// not written.
 /// @throws OutputError
 void writeFrame(const std::filesystem::path& directory, const Frame& frame);

@@ -51,6 +51,7 @@ struct Agreement {
   std::uint32_t guides = 0;        // Pixels of the first kind where the G-buffers agree.
   std::uint32_t direct = 0;        // The same for light.
   std::uint32_t indirect = 0;
+  std::uint32_t specular = 0;  // Light, distance, albedo and roughness.
 };
 
 Agreement compare(const Film& a, const Film& b) {
@@ -73,6 +74,13 @@ Agreement compare(const Film& a, const Film& b) {
                          : 0;
     result.direct += agree(a.direct[i], b.direct[i]) ? 1 : 0;
     result.indirect += agree(a.indirect[i], b.indirect[i]) ? 1 : 0;
+    if (a.specular.empty()) continue;
+    const render::SpecularPixel& first = a.specular[i];
+    const render::SpecularPixel& second = b.specular[i];
+    result.specular += agree(first.light, second.light) && agree(first.albedo, second.albedo) &&
+                               agree({first.distance, first.roughness, 0.0F}, {second.distance, second.roughness, 0.0F})
+                           ? 1
+                           : 0;
   }
   return result;
 }
@@ -88,6 +96,10 @@ void expectAgreement(const Film& cpu, const Film& gpu) {
   EXPECT_GE(share(found.guides), kLeast);
   EXPECT_GE(share(found.direct), kLeast);
   EXPECT_GE(share(found.indirect), kLeast);
+  ASSERT_EQ(gpu.specular.size(), cpu.specular.size());
+  if (cpu.specular.empty()) return;
+  std::cout << "specular " << 100.0 * share(found.specular) << " %\n";
+  EXPECT_GE(share(found.specular), kLeast);
 }
 
 // A scene with both tracers.
@@ -285,6 +297,39 @@ TEST_F(Agreements, OfAllRandomNumbersAndOfSparseLight) {
     settings.lightOffset = {1, 0};
     expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
   }
+}
+
+TEST_F(Agreements, OfSpecularLight) {
+  render::Scene scene = everything();
+  scene.specular = true;
+  scene.materials[0].metallic = 0.5F;
+  scene.materials[0].roughness = 0.35F;
+  scene.materials[1].metallic = 1.0F;  // Without diffuse light.
+  scene.materials[1].roughness = 0.0F;
+  Pair pair(gpu, std::move(scene));
+  pair.moveTo(3);
+  SamplingSettings settings = settingsOf(render::Sampler::Kind::BlueNoise, 4, 3);
+  expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
+  settings.light = {.columns = 2};
+  expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
+  settings = settingsOf(render::Sampler::Kind::Sobol, 5, 0);
+  settings.samples = 4;
+  expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
+  std::uint64_t rays = 0;
+  const Reference cpu = renderReference(pair.world(), pair.view(), settings, {true, 2}, rays);
+  const Reference gpu = pair.tracer().reference(pair.view(), settings, {true, 2}, rays);
+  std::size_t agreeing = 0;
+  for (std::size_t i = 0; i < cpu.specular.pixelCount(); ++i) {
+    const auto same = [&](const Image& a, const Image& b) {
+      const auto at = [&](const Image& image) {
+        return glm::vec3(image.pixel(i)[0], image.pixel(i)[1], image.pixel(i)[2]);
+      };
+      return std::isnan(at(a).x) ? std::isnan(at(b).x) : agree(at(a), at(b));
+    };
+    agreeing += same(cpu.specular, gpu.specular) && same(cpu.specularHalf, gpu.specularHalf) ? 1 : 0;
+  }
+  // See `OfReferences`.
+  EXPECT_GE(static_cast<double>(agreeing), 0.96 * static_cast<double>(cpu.specular.pixelCount()));
 }
 
 // A reference of an odd and of an even number of samples, with all its options.

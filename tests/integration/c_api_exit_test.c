@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <walr/specular_albedo.h> /* Is C, too. */
 #include <walr/walr_passes.h>
 
 #include "host/vulkan_host.h"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -12,6 +11,7 @@
 #include "samples/render/reflection.h"
 #include "samples/render/view.h"
 #include "samples/render/world.h"
+#include "tests/render/ggx.h"
 #include "tests/render/scene_builder.h"
 #include "tests/render/statistics.h"
 
@@ -104,31 +104,6 @@ TEST(MaterialGBuffer, AMirrorShowsWhatStandsBehindIt) {
   EXPECT_LE(edges, 2);
 }
 
-// The light that a metal reflects under a sky of radiance 1: the integral of its BRDF times cosine over the hemisphere,
-// by the midpoint rule.
-double directionalAlbedo(double cosine, double roughness, double reflectance) {
-  const double alpha2 = std::pow(roughness, 4.0);
-  const glm::dvec3 viewer(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
-  const auto smith = [&](double c) { return (std::sqrt(1.0 + alpha2 * (1.0 - c * c) / (c * c)) - 1.0) / 2.0; };
-  constexpr int kSteps = 1000;
-  double sum = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double z = (i + 0.5) / kSteps;
-    for (int j = 0; j < kSteps; ++j) {
-      const double angle = 2.0 * std::numbers::pi * (j + 0.5) / kSteps;
-      const double radius = std::sqrt(1.0 - z * z);
-      const glm::dvec3 light(radius * std::cos(angle), radius * std::sin(angle), z);
-      const glm::dvec3 half = glm::normalize(viewer + light);
-      const double d = half.z * half.z * (alpha2 - 1.0) + 1.0;
-      const double distribution = alpha2 / (std::numbers::pi * d * d);
-      const double masking = 1.0 / (1.0 + smith(cosine) + smith(z));
-      const double fresnel = reflectance + (1.0 - reflectance) * std::pow(1.0 - glm::dot(viewer, half), 5.0);
-      sum += distribution * masking * fresnel / (4.0 * cosine);
-    }
-  }
-  return sum * 2.0 * std::numbers::pi / (kSteps * kSteps);
-}
-
 // Under a sky of radiance 1 both the radiance and the albedo of a sample estimate the directional albedo.
 TEST(MaterialGBuffer, GlossySamplesMatchTheDirectionalAlbedo) {
   for (const float roughness : {0.3F, 0.6F, 1.0F}) {
@@ -150,7 +125,8 @@ TEST(MaterialGBuffer, GlossySamplesMatchTheDirectionalAlbedo) {
       EXPECT_EQ(sample.albedo, sample.radiance);
       radiance.add(sample.radiance.x);
     }
-    EXPECT_NEAR(radiance.mean(), directionalAlbedo(cosine, roughness, 0.4), kConfidence * radiance.standardError());
+    EXPECT_NEAR(radiance.mean(), test::directionalAlbedo(cosine, roughness, 0.4),
+                kConfidence * radiance.standardError());
   }
 }
 

@@ -13,18 +13,73 @@ float lightCosine(Surface surface, vec3 direction) {
   return lightCosine(surface.geometricNormal, surface.shadingNormal, direction);
 }
 
-float grazing(vec3 normal, vec3 direction) {
+float fresnel(vec3 normal, vec3 direction) {
   const float x = 1.0 - clamp(dot(normal, direction), 0.0, 1.0);
   return x * x * x * x * x;
 }
 
-float lobe(Surface surface, vec3 towardsLight) {
+float diffuseLobe(Surface surface, vec3 towardsLight) {
   if ((trace.flags & kDisneyDiffuse) == 0u) return 1.0;
-  const float light = grazing(surface.shadingNormal, towardsLight);
-  const float view = grazing(surface.shadingNormal, surface.towardsViewer);
+  const float light = fresnel(surface.shadingNormal, towardsLight);
+  const float view = fresnel(surface.shadingNormal, surface.towardsViewer);
   const float cosine = dot(towardsLight, normalize(towardsLight + surface.towardsViewer));
   const float retro = 2.0 * surface.roughness * cosine * cosine;
   return (1.0 - 0.5 * light) * (1.0 - 0.5 * view) + retro * (light + view + light * view * (retro - 1.0));
+}
+
+// How a path's vertex reflects light, see `Reflector` in samples/render/path_tracer.cpp: the BRDF relative to that of a Lambert lobe
+// of albedo 1, and the density of the direction in which the path continues.
+#ifdef SPECULAR
+SpecularLobe specularLobe(Surface surface, vec3 direction) {
+  return specularLobe(surface.shadingNormal, surface.towardsViewer, direction, alphaOf(surface.roughness));
+}
+
+vec3 specularAlbedo(Surface surface) {
+  return specularAlbedo(surface.reflectance, surface.roughness,
+                        clamp(dot(surface.shadingNormal, surface.towardsViewer), 0.0, 1.0));
+}
+
+Surface firstVertex(Surface surface, bool specular) {
+  surface.diffuse = vec3(specular ? 0.0 : 1.0);
+  surface.share = specular ? 1.0 : 0.0;
+  return surface;
+}
+
+Surface laterVertex(Surface surface) {
+  surface.diffuse = surface.albedo;
+  const vec3 specular = specularAlbedo(surface);
+  const float sum = specular.x + specular.y + specular.z;
+  surface.share = sum / (sum + (surface.diffuse.x + surface.diffuse.y + surface.diffuse.z));
+  return surface;
+}
+
+vec3 value(Surface surface, vec3 direction) {
+  const SpecularLobe lobe = specularLobe(surface, direction);
+  const float refracted = 1.0 - mix(kDielectric, 1.0, lobe.grazing);
+  const vec3 reflected = mix(surface.reflectance, vec3(1.0), lobe.grazing);
+  return surface.diffuse * (diffuseLobe(surface, direction) * refracted) +
+         (surface.share > 0.0 ? reflected * (kPi * lobe.value) : vec3(0.0));
+}
+
+float pathDensity(Surface surface, vec3 direction) {
+  const float cosine = dot(surface.shadingNormal, direction) / kPi;
+  return surface.share > 0.0 ? cosine * (1.0 - surface.share) + specularLobe(surface, direction).density * surface.share : cosine;
+}
+#else
+float value(Surface surface, vec3 direction) { return diffuseLobe(surface, direction); }
+
+float pathDensity(Surface surface, vec3 direction) { return dot(surface.shadingNormal, direction) / kPi; }
+#endif
+
+vec3 sampleDirection(Surface surface, inout Random random) {
+#ifdef SPECULAR
+  const bool choose = surface.share > 0.0 && surface.share < 1.0;
+  const bool specular = choose ? next1D(random) < surface.share : surface.share > 0.0;
+  if (specular) {
+    return reflectionDirection(surface.shadingNormal, surface.towardsViewer, alphaOf(surface.roughness), next2D(random));
+  }
+#endif
+  return cosineDirection(surface.shadingNormal, next2D(random));
 }
 
 Candidate fromPunctual(Surface surface, uint index) {
@@ -42,7 +97,9 @@ Candidate fromPunctual(Surface surface, uint index) {
       result.light *= fade * fade;
     }
   }
-  result.light *= lobe(surface, result.direction) * lightCosine(surface, result.direction) / kPi;
+  const float cosine = lightCosine(surface, result.direction);
+  if (cosine <= 0.0) return kNothing;
+  result.light *= value(surface, result.direction) * cosine / kPi;
   return result;
 }
 
@@ -90,22 +147,21 @@ Candidate fromEmitter(Surface surface, float choice, vec2 point) {
   const float cosineAtLight = (material.flags & kDoubleSided) != 0u ? abs(signedCosineAtLight) : signedCosineAtLight;
   if (cosine <= 0.0 || cosineAtLight <= 0.0 || isHole(instance.mesh, emitter.triangle, weights)) return kNothing;
   const float solidAngleDensity = density * distance2 / cosineAtLight;
-  const float cosineDensity = cosine / kPi;
   // The ray ends slightly before the light, so that it does not hit the light itself.
   const float kBeforeTheEnd = 1.0 - 1e-4;
   return Candidate(emittedRadiance(material, mesh, cornersOf(mesh, emitter.triangle), weights) *
-                       (lobe(surface, direction) * cosineDensity / (solidAngleDensity + cosineDensity)),
+                       (value(surface, direction) * (cosine / kPi) / (solidAngleDensity + pathDensity(surface, direction))),
                    position - rayOrigin(surface), kBeforeTheEnd);
 }
 
 Candidate fromSky(Surface surface, vec2 random) {
   const vec3 direction = sampleSky(random);
-  const float density = skyDensity(direction);
+  const float ofSky = skyDensity(direction);
   const float cosine = lightCosine(surface, direction);
-  if (cosine <= 0.0 || !(density > 0.0)) return kNothing;
-  const float cosineDensity = cosine / kPi;
-  return Candidate(skyRadiance(direction) * (lobe(surface, direction) * cosineDensity / (density + cosineDensity)), direction,
-                   kEndless);
+  if (cosine <= 0.0 || !(ofSky > 0.0)) return kNothing;
+  return Candidate(
+      skyRadiance(direction) * (value(surface, direction) * (cosine / kPi) / (ofSky + pathDensity(surface, direction))), direction,
+      kEndless);
 }
 
 // Number of candidates at a vertex: the sky, an emitter, and every punctual light at the first vertex, one of them later.
@@ -126,20 +182,20 @@ Candidate candidate(Surface surface, bool first, uint number, inout Random rando
   return light;
 }
 
-// Weight of cosine sampling for an emissive triangle that it hit (balance heuristic).
-float cosineWeight(Surface from, vec3 direction, Hit hit, Surface light) {
+// Weight of the path's direction for an emissive triangle that it hit (balance heuristic).
+float weightOfHit(Surface from, vec3 direction, Hit hit, Surface light) {
   const uint first = instances[hit.instance].firstEmitter;
-  const float density = first == kAbsent ? 0.0 : emitterDensity(emitters[first + hit.triangle]);
+  const float ofEmitter = first == kAbsent ? 0.0 : emitterDensity(emitters[first + hit.triangle]);
   const vec3 offset = light.position - from.position;
   const float cosineAtLight = abs(dot(light.geometricNormal, direction));
-  const float cosineDensity = dot(from.shadingNormal, direction) / kPi;
-  const float sum = density * dot(offset, offset) + cosineDensity * cosineAtLight;
-  return sum > 0.0 ? cosineDensity * cosineAtLight / sum : 0.0;
+  const float ofPath = pathDensity(from, direction) * cosineAtLight;
+  const float sum = ofEmitter * dot(offset, offset) + ofPath;
+  return sum > 0.0 ? ofPath / sum : 0.0;
 }
 
 // The same for the sky.
-float cosineWeightOfSky(Surface from, vec3 direction) {
+float weightOfSky(Surface from, vec3 direction) {
   if (!skyIsSampled()) return 1.0;
-  const float cosineDensity = dot(from.shadingNormal, direction) / kPi;
-  return cosineDensity / (cosineDensity + skyDensity(direction));
+  const float ofPath = pathDensity(from, direction);
+  return ofPath / (ofPath + skyDensity(direction));
 }

@@ -1,5 +1,8 @@
 // Surfaces as in samples/render/surface.cpp.
 #include "samples/render/exact/path.h"
+#ifdef SPECULAR
+#include "samples/render/exact/specular.h"
+#endif
 
 const float kEndless = 3.4e38;
 
@@ -25,6 +28,12 @@ struct Surface {
   vec3 towardsViewer;
   vec3 emission;
   float rayOffset;
+#ifdef SPECULAR
+  vec3 reflectance;  // Of the specular lobe at normal incidence.
+  // How the surface reflects as a path's vertex, see `Reflector` in samples/render/path_tracer.cpp.
+  vec3 diffuse;
+  float share;
+#endif
 };
 
 vec3 float3At(uint first, uint index) {
@@ -139,6 +148,9 @@ Surface evaluateSurface(Hit hit, Ray ray) {
     metallic *= texel.z;
   }
   surface.albedo = color * (1.0 - metallic);
+#ifdef SPECULAR
+  surface.reflectance = reflectanceOf(color, metallic);
+#endif
   const bool emits = (material.flags & kEmits) != 0u && (front || (material.flags & kDoubleSided) != 0u);
   surface.emission = emits ? emittedRadiance(material, mesh, corners, weights) : vec3(0.0);
   return surface;

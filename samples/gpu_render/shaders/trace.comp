@@ -32,6 +32,12 @@ layout(set = 0, binding = 18, COLOR) uniform writeonly image2D outEmission;
 layout(set = 0, binding = 19, COLOR) uniform writeonly image2D outMotion;
 layout(set = 0, binding = 20, r32f) uniform writeonly image2D outDepth;
 layout(set = 0, binding = 21, r32ui) uniform writeonly uimage2D outObjectId;
+#ifdef SPECULAR
+// Light of the specular lobe, divided by its albedo; alpha: mean inverse distance of the first hits.
+layout(set = 0, binding = 22, COLOR) uniform writeonly image2D outSpecular;
+// Albedo of the specular lobe; alpha: number of its paths. The alpha of the normal then holds roughness.
+layout(set = 0, binding = 23, COLOR) uniform writeonly image2D outSpecularAlbedo;
+#endif
 
 const uint kSrgbTable = 0u;
 const uint kLinearTable = 256u;
@@ -71,7 +77,12 @@ vec4 representable(vec4 value) {
 void writeSurface(ivec2 p, Surface surface, uint objectId) {
   const vec3 position = vec3(trace.viewFromWorld * vec4(surface.position, 1.0));
   const vec3 previous = vec3(trace.previousViewFromWorld * vec4(surface.previousPosition, 1.0));
-  imageStore(outNormal, p, representable(vec4(mat3(trace.viewFromWorld) * surface.shadingNormal, 0.0)));
+#ifdef SPECULAR
+  const float roughness = surface.roughness;
+#else
+  const float roughness = 0.0;
+#endif
+  imageStore(outNormal, p, representable(vec4(mat3(trace.viewFromWorld) * surface.shadingNormal, roughness)));
   imageStore(outAlbedo, p, representable(vec4(surface.albedo, 0.0)));
   imageStore(outEmission, p, representable(vec4(surface.emission, 0.0)));
   imageStore(outMotion, p, representable(vec4(imageMotion(p, previous), position.z - previous.z, 0.0)));
@@ -129,6 +140,14 @@ void main() {
   vec3 indirect = vec3(0.0);
   uint paths = 0u;
   uint rays = 0u;
+#ifdef SPECULAR
+  vec3 specular = vec3(0.0);
+  float inverseDistance = 0.0;
+  uint specularPaths = 0u;
+  vec3 firstAlbedo = vec3(0.0);  // Of the specular lobe of `first`.
+  bool ofSpecular = false;       // The path is one of the specular lobe.
+  bool due = false;              // The sample's path of the specular lobe is not yet traced.
+#endif
 
   Ray ray = Ray(trace.worldFromView[3].xyz, primaryDirection(p, trace.jitter), kEndless, false);
   uint purpose = kGBuffer;
@@ -148,6 +167,11 @@ void main() {
     bool ended = false;
     if (purpose == kShadow) {
       if (!met) {
+#ifdef SPECULAR
+        if (ofSpecular) {
+          specular += pending;
+        } else
+#endif
         if (bounce == 0u) {
           direct += pending;
         } else {
@@ -166,8 +190,14 @@ void main() {
       if (purpose == kContinue) {
         if (found != vec3(0.0)) {
           const vec3 direction = ray.direction;
-          found *= throughput * (met ? cosineWeight(surface, direction, hit, next) : cosineWeightOfSky(surface, direction));
+          found *= throughput * (met ? weightOfHit(surface, direction, hit, next) : weightOfSky(surface, direction));
         }
+#ifdef SPECULAR
+        if (ofSpecular) {
+          if (met && bounce == 0u) inverseDistance += 1.0 / distance(next.position, surface.position);
+          specular += found;
+        } else
+#endif
         if (bounce == 0u) {
           direct += found;
         } else {
@@ -175,7 +205,11 @@ void main() {
         }
         ended = !met;
         if (met) {
+#ifdef SPECULAR
+          next = laterVertex(next);
+#else
           throughput *= next.albedo;
+#endif
           ended = bounce == bounces || throughput == vec3(0.0);
           surface = next;
           ++bounce;
@@ -189,7 +223,15 @@ void main() {
           }
         }
         const bool lit = met && next.albedo != vec3(0.0);
+#ifdef SPECULAR
+        if (purpose == kGBuffer && !wholePixel && !met) break;
+        due = met && purpose == kFirstSurface && sampled;
+        ofSpecular = false;
+        if (met) firstAlbedo = specularAlbedo(next);
+        next = firstVertex(next, false);
+#else
         if (purpose == kGBuffer && !wholePixel && !lit) break;
+#endif
         first = next;
         surface = next;
         ended = !lit || purpose == kGBuffer;  // The samples start below.
@@ -202,6 +244,21 @@ void main() {
     bool more = false;
     while (!more) {
       if (ended) {
+#ifdef SPECULAR
+        if (due) {
+          due = false;
+          ofSpecular = true;
+          random = makeRandom(trace.seed ^ kSpecularSeed, seedPixel, trace.firstSample + started - 1u);
+          surface = firstVertex(first, true);
+          bounce = 0u;
+          light = 0u;
+          throughput = vec3(1.0) / firstAlbedo;
+          ended = false;
+          ++specularPaths;
+          continue;
+        }
+        ofSpecular = false;
+#endif
         if (started == samples) break;
         random = makeRandom(trace.seed, seedPixel, trace.firstSample + started);
         ++started;
@@ -215,7 +272,13 @@ void main() {
           more = true;
         } else {
           surface = first;
+#ifdef SPECULAR
+          due = sampled;
+          ended = first.albedo == vec3(0.0);
+          paths += ended ? 0u : 1u;
+#else
           ++paths;
+#endif
         }
       } else if (light < candidates(bounce == 0u)) {
         const Candidate arriving = candidate(surface, bounce == 0u, light, random);
@@ -227,11 +290,15 @@ void main() {
           more = true;
         }
       } else {
-        const vec3 direction = cosineDirection(surface.shadingNormal, next2D(random));
-        if (lightCosine(surface, direction) <= 0.0) {
+        const vec3 direction = sampleDirection(surface, random);
+        const float cosine = lightCosine(surface, direction);
+        if (cosine <= 0.0) {
           ended = true;
         } else {
-          throughput *= lobe(surface, direction);
+          throughput *= value(surface, direction);
+#ifdef SPECULAR
+          throughput *= cosine / kPi / pathDensity(surface, direction);
+#endif
           ray = Ray(rayOrigin(surface), direction, kEndless, false);
           purpose = kContinue;
           more = true;
@@ -248,6 +315,11 @@ void main() {
     indirect += direct;
     direct = vec3(0.0);
   }
+#ifdef SPECULAR
+  const float shareOfSpecular = 1.0 / float(max(specularPaths, 1u));
+  imageStore(outSpecular, p, representable(vec4(specular, inverseDistance) * shareOfSpecular));
+  imageStore(outSpecularAlbedo, p, vec4(firstAlbedo, float(specularPaths)));
+#endif
   imageStore(outDirect, p, representable(vec4(direct, float(paths))));
   imageStore(outIndirect, p, representable(vec4(indirect, float(rays))));
 }
