@@ -19,6 +19,7 @@
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/errors.h"
 #include "samples/sequence/sequence.h"
+#include "samples/sequence/specular_linter.h"
 
 namespace walr {
 namespace {
@@ -33,6 +34,7 @@ struct LintOptions {
 void lint(LintOptions& options) {
   if (!options.frames.empty()) options.sequence.frames = parseFrameRange(options.frames);
   options.sequence.nonFinite = NonFinitePolicy::Replace;
+  options.sequence.light.specular = true;
   const Sequence sequence(options.input, options.sequence);
   const Layout& layout = sequence.denoiserLayout();
   GpuDevice device(options.gpu);
@@ -40,15 +42,18 @@ void lint(LintOptions& options) {
   const std::unique_ptr<Denoiser> method = makeDenoiser(layout.conventions.light.everyPixel() ? "none" : "accumulate");
   GpuDenoiser runner(device, *method, sequence.extent(), layout, {.lint = true});
   InputLinter linter(layout.conventions);
+  SpecularLinter specular(layout.conventions);
   std::vector<NonFiniteChannel> nonFinite;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     const PackedFrame frame = packFrame(sequence.read(i));
     std::ranges::copy(frame.frame.nonFinite, std::back_inserter(nonFinite));
+    specular.add(frame.frame);
     linter.add(runner.run(frame).lint, frameDescriptionOf(frame.frame, layout.motionScale), sequence.extent(),
                !frame.frame.resetHistory);
   }
   device.refuseMessages();
   std::vector<LintFinding> findings = linter.findings();
+  std::ranges::copy(specular.findings(), std::back_inserter(findings));
   for (LintFinding& finding : findings) {
     if (finding.name != "lighting-negative" || !sequence.lossy()) continue;
     finding.cause = "the lossy compression of the files (B44 or DWA), which moves dark values below 0";

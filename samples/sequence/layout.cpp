@@ -36,6 +36,13 @@ constexpr std::array kProjectPlanes = {
     Plane{Role::Depth, "Depth", "Z"},         Plane{Role::Motion, "Motion", "XYZ"},
     Plane{Role::Emission, "Emission", "RGB"},
 };
+constexpr std::array kProjectSpecular = {
+    Plane{Role::Specular, "Specular", "RGB"},
+    Plane{Role::SpecularDistance, "SpecularDistance", "Z"},
+    Plane{Role::Roughness, "Roughness", "Y"},
+    Plane{Role::SpecularAlbedo, "SpecularAlbedo", "RGB"},
+};
+constexpr std::array kProjectAdded = {AddedLight{&Frame::nonDiffuse, "Specular", "SpecularAlbedo", false}};
 // The emission pass of Blender holds only surfaces; the sky has a pass of its own.
 constexpr std::array kCyclesAdded = {
     AddedLight{&Frame::emission, "Env"},
@@ -76,6 +83,14 @@ Image& imageOf(Frame& frame, Role role) {
       return frame.motion;
     case Role::Emission:
       return frame.emission;
+    case Role::Specular:
+      return frame.specular;
+    case Role::SpecularDistance:
+      return frame.specularDistance;
+    case Role::Roughness:
+      return frame.roughness;
+    case Role::SpecularAlbedo:
+      return frame.specularAlbedo;
     case Role::ObjectId:
       break;
   }
@@ -242,7 +257,9 @@ const Layout& projectLayout() {
                              CameraSource::HeaderAttributes,
                              InputConventions{},
                              glm::vec2(1.0F, 1.0F),
-                             {Role::ObjectId, "ObjectId", "Y"}};
+                             {Role::ObjectId, "ObjectId", "Y"},
+                             kProjectAdded,
+                             kProjectSpecular};
   return layout;
 }
 
@@ -293,6 +310,7 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
     }
     RecognizedLayout recognized{layout, viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
     recognized.objectIds = hasPlane(file, recognized, layout->objectId);
+    recognized.specular = !layout->specular.empty() && hasPlane(file, recognized, layout->specular.front());
     std::ranges::copy_if(layout->added, std::back_inserter(recognized.added),
                          [&](const AddedLight& light) { return hasPlane(file, recognized, colours(light.name)); });
     return recognized;
@@ -323,6 +341,9 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
                        [&](const Plane& plane) { return isWanted(plane, wanted); });
   if (layout.objectIds) {
     planes.push_back(layout.layout->objectId);
+  }
+  if (wanted.specular && layout.specular) {
+    planes.insert(planes.end(), layout.layout->specular.begin(), layout.layout->specular.end());
   }
   if (wanted.rest) {
     for (const AddedLight& light : layout.added) {
@@ -366,8 +387,16 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish&
       }
     }
   }
+  const std::span<const Plane> specular =
+      wanted.specular && layout.specular ? layout.layout->specular : std::span<const Plane>();
+  for (const Plane& plane : specular) {
+    if (!added.contains(plane.name)) addPlane(plane);  // A channel can be read once.
+  }
   file.read(targets, place);
   findNonFinite(file.path(), targets, false, frame.nonFinite);
+  for (const Plane& plane : specular) {
+    if (added.contains(plane.name)) imageOf(frame, plane.role) = added.at(plane.name);
+  }
   if (wanted.rest) {
     for (const AddedLight& light : layout.added) addLight(light, added, frame.*light.image);
   }
@@ -394,6 +423,13 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, const L
   const std::string halfName = std::string(half.name) + "A";
   half.name = halfName;
   if (readsIndirect && hasPlane(file, layout, half)) addPlane(half, reference.indirectHalf);
+  if (wanted.specular && layout.specular) {
+    Plane specular = layout.layout->specular.front();
+    if (hasPlane(file, layout, specular)) addPlane(specular, reference.specular);
+    const std::string specularHalf = std::string(specular.name) + "A";
+    specular.name = specularHalf;
+    if (hasPlane(file, layout, specular)) addPlane(specular, reference.specularHalf);
+  }
   if (!targets.empty()) file.read(targets, place);
   findNonFinite(file.path(), std::span(targets).first(checked), true, nonFinite);
   if (divide) {
@@ -421,7 +457,7 @@ std::string describeUndenoised(const RecognizedLayout& layout, std::span<const L
 std::string describeMissing(const RecognizedLayout& layout) {
   std::vector<std::string> names;
   for (const AddedLight& light : layout.layout->added) {
-    if (std::ranges::find(layout.added, light.name, &AddedLight::name) == layout.added.end()) {
+    if (light.usual && std::ranges::find(layout.added, light.name, &AddedLight::name) == layout.added.end()) {
       names.emplace_back(light.name);
     }
   }

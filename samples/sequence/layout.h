@@ -15,7 +15,20 @@
 namespace walr {
 
 /// The quantity that an image in a file holds.
-enum class Role { Indirect, Direct, Albedo, Normal, Depth, Motion, Emission, ObjectId };
+enum class Role {
+  Indirect,
+  Direct,
+  Albedo,
+  Normal,
+  Depth,
+  Motion,
+  Emission,
+  ObjectId,
+  Specular,
+  SpecularDistance,
+  Roughness,
+  SpecularAlbedo,
+};
 
 /// One image of a layout: its name without the view layer, and one letter per component.
 struct Plane {
@@ -29,13 +42,15 @@ struct AddedLight {
   Image Frame::*image;           ///< To which the light is added.
   std::string_view name;         ///< Of the plane with the light, RGB.
   std::string_view colour = {};  ///< Plane by which the light is multiplied, RGB; empty: none.
+  bool usual = true;             ///< Users are told if the files do not hold it.
 };
 
 /// The light to read beside the guides.
 struct LightWish {
   bool indirect = true;
   bool direct = false;
-  bool rest = false;  ///< Emission, and the lights that a composite adds.
+  bool rest = false;      ///< Emission, and the lights that a composite adds.
+  bool specular = false;  ///< Specular light and what belongs to it, if the files hold it.
 };
 /// Everything that a composite consists of.
 inline constexpr LightWish kWholePicture{.indirect = true, .direct = true, .rest = true};
@@ -53,6 +68,8 @@ struct Layout {
   Plane objectId;         ///< Optional: read in all frames if the first frame has it.
   /// Optional: read in all frames if the first frame has the light.
   std::span<const AddedLight> added = {};
+  /// Optional: specular light first, and what belongs to it. Read in all frames if the first frame has the light.
+  std::span<const Plane> specular = {};
 };
 
 /// Blender up to version 4.
@@ -73,6 +90,7 @@ struct RecognizedLayout {
   const Layout* layout = nullptr;
   std::string viewLayer;                       ///< Empty if the channels have no view-layer prefix.
   bool objectIds = false;                      ///< The file has `Layout::objectId`.
+  bool specular = false;                       ///< The file has the light of `Layout::specular`.
   std::vector<AddedLight> added = {};          ///< Those of `Layout::added` that the file has.
   std::shared_ptr<const ChannelMap> map = {};  ///< Where channels are found, if a user says so; `layout` is its.
 
@@ -104,7 +122,7 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish&
                Frame& frame);
 
 /// Read the wanted lights that a reference holds, and add its channels with non-finite values to `nonFinite`. The mean
-/// of one half of the samples is optional: the plane of indirect light with an A after its name (`IndirectA`).
+/// of one half of the samples is optional: the plane of the light with an A after its name (`IndirectA`).
 /// @param place  of the images; pixels that the file lacks have no reference
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted,
                         const PixelRect& place, std::vector<NonFiniteChannel>& nonFinite);

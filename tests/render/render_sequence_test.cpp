@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <numbers>
 #include <set>
@@ -19,6 +20,7 @@
 #include "samples/render/reference.h"
 #include "samples/render/render_sequence.h"
 #include "samples/sequence/sequence.h"
+#include "samples/sequence/specular_linter.h"
 #include "samples/sequence/writer.h"
 #include "tests/error_text.h"
 #include "tests/render/statistics.h"
@@ -122,6 +124,67 @@ TEST(RenderSequence, WritesSparseLight) {
     EXPECT_GT(direct, 0.5 * static_cast<double>(frame.direct.values().size()));
   }
   EXPECT_EQ(offsets.size(), sequence.entries().size());
+}
+
+std::vector<std::string> namesOf(const std::vector<LintFinding>& findings) {
+  std::vector<std::string> names;
+  for (const LintFinding& finding : findings) names.emplace_back(finding.name);
+  return names;
+}
+
+// Frames of a scene with metals pass the linter; each change that a host makes by mistake is found.
+TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.scene = WALR_SCENES "/gloss.gltf";
+  options.width = 96;
+  options.height = 54;
+  options.specular = true;
+  options.lastFrame = options.firstFrame;
+  options.referenceSamples = 2;
+  render(options);
+  SequenceOptions reading;
+  reading.light.specular = true;
+  const Sequence sequence(folder.path(), reading);
+  const Frame frame = sequence.read(0);
+  EXPECT_FALSE(frame.reference->specular.empty());
+  EXPECT_FALSE(frame.reference->specularHalf.empty());
+  for (std::size_t i = 0; i < frame.depth.pixelCount(); ++i) {
+    const bool sky = frame.depth.pixel(i)[0] >= kSkyDepth;
+    EXPECT_EQ(frame.specularDistance.pixel(i)[0] > 0.0F, !sky);
+    EXPECT_EQ(frame.specularAlbedo.pixel(i)[0] >= 0.0199F, !sky);
+  }
+  struct Case {
+    std::vector<std::string> names;
+    std::function<void(Frame&)> change;
+  };
+  const auto eachRoughness = [](Frame& spoiled, float (*change)(float)) {
+    for (float& value : spoiled.roughness.values()) value = change(value);
+  };
+  const std::vector<Case> cases = {
+      {{}, [](Frame&) {}},
+      {{"specular-albedo-in-light"},
+       [](Frame& spoiled) {
+         const auto albedo = spoiled.specularAlbedo.values();
+         for (std::size_t i = 0; i < albedo.size(); ++i) spoiled.specular.values()[i] *= albedo[i];
+       }},
+      {{"roughness-encoding"}, [&](Frame& spoiled) { eachRoughness(spoiled, [](float r) { return r * r; }); }},
+      {{"roughness-encoding"}, [&](Frame& spoiled) { eachRoughness(spoiled, [](float r) { return std::sqrt(r); }); }},
+      {{"roughness-range"}, [&](Frame& spoiled) { eachRoughness(spoiled, [](float r) { return 100.0F * r; }); }},
+      {{"specular-distance"}, [](Frame& spoiled) { spoiled.specularDistance.at(9, 40, 0) = -1.0F; }},
+      {{"specular-not-finite"}, [](Frame& spoiled) { spoiled.specularDistance.at(9, 40, 0) = NAN; }},
+      {{"specular-negative"}, [](Frame& spoiled) { spoiled.specular.at(9, 40, 1) = -1.0F; }},
+  };
+  for (const Case& spoilt : cases) {
+    Frame spoiled = frame;
+    spoilt.change(spoiled);
+    SpecularLinter linter(sequence.denoiserLayout().conventions);
+    linter.add(spoiled);
+    EXPECT_EQ(namesOf(linter.findings()), spoilt.names);
+  }
+  // A folder without the light is not continued with it, nor the other way round.
+  options.specular = false;
+  fg::test::expectError<InputError>([&] { render(options); }, {"'specular'"});
 }
 
 TEST(RenderSequence, WritesTheObjectOfEveryPixel) {

@@ -109,13 +109,22 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   written.objectId = Image(6, 4, 1);
   written.objectId.at(1, 2, 0) = 7.0F;
   written.objectId.at(0, 0, 0) = -1.0F;
+  written.specular = written.specularAlbedo = Image(6, 4, 3);
+  written.specularDistance = written.roughness = Image(6, 4, 1);
+  written.specular.at(2, 1, 0) = 3.0F;
+  written.specularAlbedo.at(2, 1, 0) = 0.5F;
+  written.specularDistance.at(2, 1, 0) = kBackgroundDepth;
+  written.roughness.at(2, 1, 0) = 0.25F;
   writeFrame(directory.path(), written);
-  Reference reference{.indirect = Image(6, 4, 3)};
+  Reference reference{.indirect = Image(6, 4, 3), .specular = Image(6, 4, 3), .specularHalf = Image(6, 4, 3)};
   reference.indirect.at(5, 3, 2) = 2.0F;
+  reference.specular.at(5, 3, 1) = 4.0F;
+  reference.specularHalf.at(5, 3, 0) = 5.0F;
   writeReference(directory.path(), 7, reference);
 
   SequenceOptions options;
   options.light = kWholePicture;
+  options.light.specular = true;
   const Sequence sequence = open(options);
   EXPECT_EQ(sequence.layout().layout, &projectLayout());
   const Frame read = sequence.read(0);
@@ -129,6 +138,25 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   EXPECT_TRUE(std::ranges::equal(read.indirect.values(), written.indirect.values()));
   EXPECT_TRUE(std::ranges::equal(read.depth.values(), written.depth.values()));
   EXPECT_EQ(read.reference->indirect.at(5, 3, 2), 2.0F);
+  EXPECT_EQ(read.specular.at(2, 1, 0), 3.0F);
+  EXPECT_EQ(read.specularAlbedo.at(2, 1, 0), 0.5F);
+  EXPECT_EQ(read.specularDistance.at(2, 1, 0), kBackgroundDepth);
+  EXPECT_EQ(read.roughness.at(2, 1, 0), 0.25F);
+  EXPECT_EQ(read.reference->specular.at(5, 3, 1), 4.0F);
+  EXPECT_EQ(read.reference->specularHalf.at(5, 3, 0), 5.0F);
+  EXPECT_EQ(read.nonDiffuse.at(2, 1, 0), 3.0F * 0.5F);  // Composites add it.
+  EXPECT_TRUE(open().read(0).specular.empty());
+}
+
+TEST_F(SequenceTest, SpecularLightMustBeInAllFramesOrInNone) {
+  Frame frame = test::projectFrame(0, 6, 4);
+  frame.specular = frame.specularAlbedo = Image(6, 4, 3);
+  frame.specularDistance = frame.roughness = Image(6, 4, 1);
+  writeFrame(directory.path(), frame);
+  writeFrame(directory.path(), test::projectFrame(1, 6, 4));
+  SequenceOptions options;
+  options.light.specular = true;
+  expectRefused({"noisy_0001.exr", "Specular.R", "SpecularDistance.Z", "Roughness.Y", "SpecularAlbedo.B"}, options);
 }
 
 TEST_F(SequenceTest, ReadsSparseLight) {
