@@ -162,6 +162,12 @@ void registerRender(CLI::App& program) {
   command->add_flag("--specular", options.specular,
                     "Materials reflect with the specular lobe of glTF, too: frames and references also hold its light, "
                     "distances, roughness and albedo");
+  command
+      ->add_flag(
+          "--replace-mirrors", options.replaceMirrors,
+          "Metals of a linear roughness below 0.15 are mirrors: their pixels hold the virtual image of the surface "
+          "that they reflect, in all channels; the mirrors are taken to stand still")
+      ->needs("--specular");
   command->add_option("--threads", options.threads, "Number of threads for --tracer cpu; 0: one per core")
       ->capture_default_str();
   addTracerOption(*command, arguments->tracer);

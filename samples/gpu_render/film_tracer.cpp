@@ -240,7 +240,6 @@ render::Film FilmTracer::film(const render::View& view, const render::SamplingSe
 walr::Reference FilmTracer::reference(const render::View& view, const render::SamplingSettings& settings,
                                       const render::ReferenceCoverage& coverage, std::uint64_t& rays) {
   render::SamplingSettings half = settings;
-  half.gbuffer = render::GBufferMode::FirstHit;
   const bool inHalves = settings.samples % 2 == 0;
   std::uint64_t reported = 0;
   std::uint64_t received = 0;

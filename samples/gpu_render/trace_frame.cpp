@@ -74,7 +74,7 @@ TraceConstants traceConstants(const render::World& world, const render::View& vi
   const auto refuse = [](const std::string& what) {
     throw render::SceneError("the path tracer on the GPU has no " + what + ": use --tracer cpu");
   };
-  if (settings.gbuffer != render::GBufferMode::FirstHit) refuse("G-buffer by material (--gbuffer material)");
+  if (settings.gbuffer == render::GBufferMode::Material) refuse("G-buffer by material (--gbuffer material)");
   if (settings.reservoirs != nullptr) refuse("resampling (--resampled-frames)");
   const render::Scene& scene = world.scene();
   TraceConstants constants{};
@@ -100,7 +100,8 @@ TraceConstants traceConstants(const render::World& world, const render::View& vi
   constants.oneSquareIn = coverage.oneSquareIn;
   constants.squareShift = coverage.rowShift();
   constants.flags = (scene.diffuseModel == render::DiffuseModel::Disney ? kDisneyDiffuse : 0) |
-                    (world.sky().isSampled() ? kSkySampled : 0) | (coverage.wholePixel ? kWholePixel : 0);
+                    (world.sky().isSampled() ? kSkySampled : 0) | (coverage.wholePixel ? kWholePixel : 0) |
+                    (settings.gbuffer == render::GBufferMode::BehindMirrors ? kBehindMirrors : 0);
   return constants;
 }
 

@@ -156,7 +156,10 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
             const bool sampled = settings.light.hasSample(pixel, settings.lightOffset);
             const PixelTracer tracer(world, settings, sampled ? settings.bounces : 0,
                                      sampled ? seedOf(texel) : seedOf(pixel));
-            if (!film.specular.empty()) film.specular[index] = tracer.specular(*hit.surface, sampled, tileRays);
+            if (!film.specular.empty()) {
+              film.specular[index] = tracer.specular(*hit.surface, sampled, tileRays);
+              film.specular[index].albedo *= hit.tint;
+            }
             if (!glossy && hit.pixel.albedo == glm::vec3(0.0F)) {
               continue;
             }

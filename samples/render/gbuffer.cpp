@@ -6,6 +6,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
+#include "samples/render/exact/specular.h"
 #include "samples/render/reflection.h"
 
 namespace walr::render {
@@ -50,7 +51,9 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
       return result;
     }
     const Surface surface = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray);
-    const bool isMirror = mode == GBufferMode::Material && glossOf(surface) == Gloss::Specular;
+    const bool isMirror = mode == GBufferMode::Material ? glossOf(surface) == Gloss::Specular
+                                                        : mode == GBufferMode::BehindMirrors &&
+                                                              exact::isMirror(surface.metallic, surface.roughness);
     if (isMirror && mirrors < kMostMirrors) {
       const Reflection reflection = mirrored(surface);
       result.tint *= reflection.weight;

@@ -28,8 +28,10 @@ struct GBufferPixel {
 /// Which surface the G-buffer describes.
 enum class GBufferMode : std::uint8_t {
   FirstHit,  ///< The first surface. Metals have no light.
-  /// Blended by material (Fu 2022). A mirror is replaced by the virtual image of the surface that it reflects. A glossy
-  /// metal keeps its own depth and normal, and its albedo is the mean of the albedos that it reflects.
+  /// A mirror (`exact::isMirror`) is replaced by the virtual image of the surface that it reflects.
+  BehindMirrors,
+  /// Blended by material (Fu 2022). Of mirrors the same, by another threshold (`glossOf`). A glossy metal keeps its own
+  /// depth and normal, and its albedo is the mean of the albedos that it reflects.
   Material,
 };
 

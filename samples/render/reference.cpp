@@ -45,7 +45,7 @@ class ReferenceTracer {
     LightSum sum;
     PrimaryHit hit;
     if (!wholePixel_) {
-      hit = tracePrimary(world_, view_, x, y);
+      hit = tracePrimary(world_, view_, x, y, settings_.gbuffer);
       ++rays;
       if (!lit(hit)) return sum;
     }
@@ -56,7 +56,7 @@ class ReferenceTracer {
       if (wholePixel_) {
         View view = view_;
         view.jitter = sampler.next2D() - 0.5F;
-        hit = tracePrimary(world_, view, x, y);
+        hit = tracePrimary(world_, view, x, y, settings_.gbuffer);
         ++rays;
         if (!lit(hit)) continue;
       }

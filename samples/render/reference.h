@@ -32,7 +32,7 @@ inline std::uint32_t seedOfSecondHalf(std::uint32_t seed) {
 /// Render a reference: the mean of many samples per pixel, 0 where no sample starts on a diffuse surface. If the number
 /// of samples is even, they form two independent halves. The mean of the first half is stored, too, so that the
 /// reference's own noise can be estimated (`referenceNoise`).
-/// @param settings  `gbuffer` is ignored: light is gathered at first hits
+/// @param settings  `gbuffer`: with `Material`, light is gathered behind mirrors, but not that of glossy metals
 /// @param rays      set to the number of rays traced
 walr::Reference renderReference(const World& world, const View& view, const SamplingSettings& settings,
                                 const ReferenceCoverage& coverage, std::uint64_t& rays);

@@ -32,12 +32,13 @@ Gloss glossOf(const Surface& surface) {
 }
 
 Reflection mirrored(const Surface& surface) {
-  const glm::vec3 direction = glm::reflect(-surface.towardsViewer, surface.shadingNormal);
+  const glm::vec3 direction = exact::mirrorDirection(surface.shadingNormal, surface.towardsViewer);
   if (leadsUnder(surface, direction)) {
     return {direction, glm::vec3(0.0F)};
   }
   const float cosine = glm::dot(surface.shadingNormal, surface.towardsViewer);
-  return {direction, glm::mix(surface.reflectance, glm::vec3(1.0F), exact::grazing(cosine))};
+  return {direction, glm::mix(exact::reflectanceOf(surface.reflectance, surface.metallic), glm::vec3(1.0F),
+                              exact::grazing(cosine))};
 }
 
 Reflection sampleReflection(const Surface& surface, const glm::vec2& random) {

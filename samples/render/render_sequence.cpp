@@ -38,6 +38,7 @@ const char* nameOf(Sampler::Kind kind) {
 
 // Not in the settings of earlier versions, which had no such light.
 constexpr const char* kSpecularKey = "specular";
+constexpr const char* kMirrorsKey = "replace_mirrors";
 
 // Only in the settings of the tracer on the GPU, whose frames differ from the processor's by rounding.
 constexpr const char* kTracerKey = "tracer";
@@ -68,6 +69,7 @@ nlohmann::json describe(const RenderOptions& options, const std::string& content
       {"light_group", {options.light.columns, options.light.rows}},
   };
   if (options.specular) settings[kSpecularKey] = true;
+  if (options.replaceMirrors) settings[kMirrorsKey] = true;
   if (options.otherTracer) settings[kTracerKey] = "gpu";
   return settings;
 }
@@ -99,7 +101,7 @@ void matchSettings(const RenderOptions& options, const std::string& contents) {
                      "' or of its sky have changed since the frames in this folder were rendered; use another --output "
                      "or remove the folder");
   }
-  for (const char* const key : {kSpecularKey, kTracerKey}) {
+  for (const char* const key : {kSpecularKey, kMirrorsKey, kTracerKey}) {
     if (before.contains(key) && !settings.contains(key)) refuse(key);
   }
 }
@@ -193,6 +195,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       SamplingSettings settings;
       settings.samples = samples;
       settings.bounces = options.bounces;
+      if (options.replaceMirrors) settings.gbuffer = GBufferMode::BehindMirrors;
       settings.seed = options.seed * 2 + seedBit;
       settings.firstSample = static_cast<std::uint32_t>(number) * samples;
       // With several samples per pixel, blue noise would be no better than independent samples, but Sobol points are.

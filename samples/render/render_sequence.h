@@ -41,7 +41,8 @@ struct RenderOptions {
   LightPattern light = {};                           ///< Which pixels of the noisy frames have indirect light.
   unsigned int threads = 0;                          ///< Number of threads; 0: one per core.
   DiffuseModel diffuseModel = DiffuseModel::Lambert;
-  bool specular = false;  ///< See `Scene::specular`; frames and references then hold specular light.
+  bool replaceMirrors = false;  ///< `GBufferMode::BehindMirrors`; only with `specular`.
+  bool specular = false;        ///< See `Scene::specular`; frames and references then hold specular light.
   /// Makes another path tracer than that on the processor; empty: the processor's.
   std::function<std::unique_ptr<FrameTracer>(const World&)> otherTracer = {};
 

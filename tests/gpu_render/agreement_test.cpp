@@ -311,10 +311,12 @@ TEST_F(Agreements, OfSpecularLight) {
   SamplingSettings settings = settingsOf(render::Sampler::Kind::BlueNoise, 4, 3);
   expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
   settings.light = {.columns = 2};
+  settings.gbuffer = render::GBufferMode::BehindMirrors;
   expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
   settings = settingsOf(render::Sampler::Kind::Sobol, 5, 0);
   settings.samples = 4;
   expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
+  settings.gbuffer = render::GBufferMode::BehindMirrors;
   std::uint64_t rays = 0;
   const Reference cpu = renderReference(pair.world(), pair.view(), settings, {true, 2}, rays);
   const Reference gpu = pair.tracer().reference(pair.view(), settings, {true, 2}, rays);

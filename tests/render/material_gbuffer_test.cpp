@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 
@@ -65,7 +66,10 @@ struct MirrorScene {
   std::uint32_t camera = 0;
 };
 
-TEST(MaterialGBuffer, AMirrorShowsWhatStandsBehindIt) {
+class Mirrors : public testing::TestWithParam<GBufferMode> {};
+INSTANTIATE_TEST_SUITE_P(Modes, Mirrors, testing::Values(GBufferMode::BehindMirrors, GBufferMode::Material));
+
+TEST_P(Mirrors, ShowWhatStandsBehindThem) {
   MirrorScene before(true);
   MirrorScene behind(false);
   World mirror(before.builder.scene());
@@ -82,8 +86,8 @@ TEST(MaterialGBuffer, AMirrorShowsWhatStandsBehindIt) {
         continue;  // The ray misses the mirror.
       }
       EXPECT_EQ(first.pixel.albedo, glm::vec3(0.0F));
-      const PrimaryHit shown = tracePrimary(mirror, view, x, y, GBufferMode::Material);
-      const PrimaryHit expected = tracePrimary(image, view, x, y, GBufferMode::Material);
+      const PrimaryHit shown = tracePrimary(mirror, view, x, y, GetParam());
+      const PrimaryHit expected = tracePrimary(image, view, x, y, GetParam());
       if (shown.surface.has_value() != expected.surface.has_value()) {
         ++edges;
         continue;
@@ -102,6 +106,32 @@ TEST(MaterialGBuffer, AMirrorShowsWhatStandsBehindIt) {
   }
   EXPECT_GT(compared, 200);
   EXPECT_LE(edges, 2);
+}
+
+// Only smooth metals are replaced. What they show is as dark as they reflect.
+TEST(MirrorsInFilms, AreReplacedBelowTheirRoughness) {
+  for (const auto& [metallic, roughness, replaced] :
+       {std::tuple(1.0F, 0.149F, true), std::tuple(1.0F, 0.151F, false), std::tuple(0.4F, 0.0F, false)}) {
+    SceneBuilder builder;
+    const std::uint32_t mirror = metal(builder, glm::vec3(0.5F), roughness);
+    builder.scene().materials[mirror].metallic = metallic;
+    builder.scene().specular = true;
+    builder.quad(mirror, {-9.0F, 0.0F, 9.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -18.0F});
+    builder.quad(builder.material(glm::vec3(0.8F)), {-9.0F, 0.0F, -4.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 9.0F, 0.0F});
+    const std::uint32_t camera = builder.camera({0.0F, 2.0F, -1.0F}, {0.0F, 0.0F, -3.0F});  // At 45 degrees.
+    const World world(builder.scene());
+    SamplingSettings settings;
+    settings.gbuffer = GBufferMode::BehindMirrors;
+    const View view = viewFrom(world, camera, 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
+    const Film film = renderFilm(world, view, settings);
+    EXPECT_EQ(film.gbuffer[0].objectId, replaced ? 1U : 0U);
+    EXPECT_EQ(film.specular[0].roughness, replaced ? 1.0F : roughness);
+    if (!replaced) continue;
+    const double tint = test::schlick(0.5, std::sqrt(0.5));
+    EXPECT_NEAR(film.gbuffer[0].albedo.x, tint * 0.8, 1e-5);
+    EXPECT_NEAR(film.specular[0].albedo.x, tint * 0.02, 1e-6);                // A rough dielectric's is the least.
+    EXPECT_NEAR(film.gbuffer[0].position.z, -3.0F * std::sqrt(2.0F), 1e-4F);  // 2 down, and 1 to the wall.
+  }
 }
 
 // Under a sky of radiance 1 both the radiance and the albedo of a sample estimate the directional albedo.

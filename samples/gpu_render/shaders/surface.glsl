@@ -29,6 +29,7 @@ struct Surface {
   vec3 emission;
   float rayOffset;
 #ifdef SPECULAR
+  float metallic;
   vec3 reflectance;  // Of the specular lobe at normal incidence.
   // How the surface reflects as a path's vertex, see `Reflector` in samples/render/path_tracer.cpp.
   vec3 diffuse;
@@ -149,6 +150,7 @@ Surface evaluateSurface(Hit hit, Ray ray) {
   }
   surface.albedo = color * (1.0 - metallic);
 #ifdef SPECULAR
+  surface.metallic = metallic;
   surface.reflectance = reflectanceOf(color, metallic);
 #endif
   const bool emits = (material.flags & kEmits) != 0u && (front || (material.flags & kDoubleSided) != 0u);

@@ -74,27 +74,45 @@ vec4 representable(vec4 value) {
 #endif
 }
 
+// The virtual image of what mirrors in between show, see samples/render/gbuffer.cpp.
+#ifdef SPECULAR
+mat4 imageFromWorld = mat4(1.0);
+vec3 tint = vec3(1.0);
+#define VIRTUAL(matrix) ((matrix) * imageFromWorld)
+#define TINTED(light) ((light) * tint)
+
+mat4 reflectionAt(Surface mirror) {
+  const vec3 n = mirror.shadingNormal;
+  mat4 map = mat4(mat3(1.0) - 2.0 * outerProduct(n, n));
+  map[3] = vec4(2.0 * dot(n, mirror.position) * n, 1.0);
+  return map;
+}
+#else
+#define VIRTUAL(matrix) (matrix)
+#define TINTED(light) (light)
+#endif
+
 void writeSurface(ivec2 p, Surface surface, uint objectId) {
-  const vec3 position = vec3(trace.viewFromWorld * vec4(surface.position, 1.0));
-  const vec3 previous = vec3(trace.previousViewFromWorld * vec4(surface.previousPosition, 1.0));
+  const vec3 position = vec3(VIRTUAL(trace.viewFromWorld) * vec4(surface.position, 1.0));
+  const vec3 previous = vec3(VIRTUAL(trace.previousViewFromWorld) * vec4(surface.previousPosition, 1.0));
 #ifdef SPECULAR
   const float roughness = surface.roughness;
 #else
   const float roughness = 0.0;
 #endif
-  imageStore(outNormal, p, representable(vec4(mat3(trace.viewFromWorld) * surface.shadingNormal, roughness)));
-  imageStore(outAlbedo, p, representable(vec4(surface.albedo, 0.0)));
-  imageStore(outEmission, p, representable(vec4(surface.emission, 0.0)));
+  imageStore(outNormal, p, representable(vec4(mat3(VIRTUAL(trace.viewFromWorld)) * surface.shadingNormal, roughness)));
+  imageStore(outAlbedo, p, representable(vec4(TINTED(surface.albedo), 0.0)));
+  imageStore(outEmission, p, representable(vec4(TINTED(surface.emission), 0.0)));
   imageStore(outMotion, p, representable(vec4(imageMotion(p, previous), position.z - previous.z, 0.0)));
   imageStore(outDepth, p, vec4(-position.z));
   imageStore(outObjectId, p, uvec4(objectId));
 }
 
 void writeSky(ivec2 p, vec3 direction, vec3 radiance) {
-  const vec3 previousDirection = mat3(trace.previousViewFromWorld) * direction;
+  const vec3 previousDirection = mat3(VIRTUAL(trace.previousViewFromWorld)) * direction;
   imageStore(outNormal, p, vec4(0.0));
   imageStore(outAlbedo, p, vec4(0.0));
-  imageStore(outEmission, p, representable(vec4(radiance, 0.0)));
+  imageStore(outEmission, p, representable(vec4(TINTED(radiance), 0.0)));
   imageStore(outMotion, p, representable(vec4(imageMotion(p, previousDirection), 0.0, 0.0)));
   imageStore(outDepth, p, vec4(kBackgroundDepth));
   imageStore(outObjectId, p, uvec4(kAbsent));
@@ -145,8 +163,10 @@ void main() {
   float inverseDistance = 0.0;
   uint specularPaths = 0u;
   vec3 firstAlbedo = vec3(0.0);  // Of the specular lobe of `first`.
+  vec3 shownAlbedo = vec3(0.0);  // The same of the G-buffer.
   bool ofSpecular = false;       // The path is one of the specular lobe.
   bool due = false;              // The sample's path of the specular lobe is not yet traced.
+  uint mirrors = 0u;             // Between the camera and the path's first vertex.
 #endif
 
   Ray ray = Ray(trace.worldFromView[3].xyz, primaryDirection(p, trace.jitter), kEndless, false);
@@ -215,6 +235,19 @@ void main() {
           ++bounce;
         }
       } else {
+#ifdef SPECULAR
+        const uint kMostMirrors = 8u;  // Of samples/render/gbuffer.cpp.
+        if (met && (trace.flags & kBehindMirrors) != 0u && isMirror(next.metallic, next.roughness) && mirrors < kMostMirrors) {
+          const vec3 direction = mirrorDirection(next.shadingNormal, next.towardsViewer);
+          const float away = grazing(dot(next.shadingNormal, next.towardsViewer));
+          tint *= dot(next.geometricNormal, direction) > 0.0 ? mix(next.reflectance, vec3(1.0), away) : vec3(0.0);
+          imageFromWorld = imageFromWorld * reflectionAt(next);
+          ray = Ray(rayOrigin(next), direction, kEndless, false);
+          ++mirrors;
+          continue;
+        }
+        mirrors = 0u;
+#endif
         if (purpose == kGBuffer) {
           if (met) {
             writeSurface(p, next, hit.instance);
@@ -228,6 +261,7 @@ void main() {
         due = met && purpose == kFirstSurface && sampled;
         ofSpecular = false;
         if (met) firstAlbedo = specularAlbedo(next);
+        if (purpose == kGBuffer) shownAlbedo = TINTED(firstAlbedo);
         next = firstVertex(next, false);
 #else
         if (purpose == kGBuffer && !wholePixel && !lit) break;
@@ -318,7 +352,7 @@ void main() {
 #ifdef SPECULAR
   const float shareOfSpecular = 1.0 / float(max(specularPaths, 1u));
   imageStore(outSpecular, p, representable(vec4(specular, inverseDistance) * shareOfSpecular));
-  imageStore(outSpecularAlbedo, p, vec4(firstAlbedo, float(specularPaths)));
+  imageStore(outSpecularAlbedo, p, vec4(shownAlbedo, float(specularPaths)));
 #endif
   imageStore(outDirect, p, representable(vec4(direct, float(paths))));
   imageStore(outIndirect, p, representable(vec4(indirect, float(rays))));

@@ -17,6 +17,17 @@ WALR_EXACT float alphaOf(float roughness) {
   return max(roughness * roughness, 1e-4f);
 }
 
+// A metal of less linear roughness is a mirror whose picture is that of another surface.
+WALR_EXACT_CONSTANT float kMirrorRoughness = 0.15f;
+
+WALR_EXACT bool isMirror(float metallic, float roughness) {
+  return metallic >= 0.5f && roughness < kMirrorRoughness;
+}
+
+WALR_EXACT vec3 mirrorDirection(vec3 normal, vec3 towardsViewer) {
+  return unitOr(normal * (2.0f * exactDot(normal, towardsViewer)) - towardsViewer, normal);
+}
+
 // Reflectance of a lobe at normal incidence.
 WALR_EXACT vec3 reflectanceOf(vec3 color, float metallic) {
   return vec3(kDielectric) * (1.0f - metallic) + color * metallic;
