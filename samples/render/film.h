@@ -42,8 +42,8 @@ struct SpecularPixel {
   glm::vec3 light{0.0F};  ///< Mean of all light of `Lobe::Specular`, divided by `albedo`.
   /// Harmonic mean of `PathSample::distance`, because parallax goes with its inverse; 0 without a sample.
   float distance = 0.0F;
-  glm::vec3 albedo{
-      0.0F};  ///< See `specularAlbedo`; 0 on sky, like `roughness`. Behind mirrors, times `PrimaryHit::tint`.
+  /// See `specularAlbedo`; times `PrimaryHit::tint`. 0 on sky, like `roughness`.
+  glm::vec3 albedo{0.0F};
   float roughness = 0.0F;
 };
 

@@ -2,7 +2,7 @@
 
 import math
 
-from box_scenes import room
+from box_scenes import room, tile_normal_map
 from gltf_writer import Gltf, Mesh, png, turn
 
 SIZE, TILES = 96, 12
@@ -19,17 +19,18 @@ def metal(color, roughness):
     return {"baseColorFactor": [*color, 1.0], "metallicFactor": 1.0, "roughnessFactor": roughness}
 
 
-def ball(center, radius):
+def ball(radius, part=1.0):
+    """`part`: of its height, from below; less than 1 is a bowl."""
+
     def point(u, v):
-        around, up = 2 * math.pi * u, math.pi * (v - 0.5)
-        return (center[0] + radius * math.cos(up) * math.sin(around), center[1] + radius * math.sin(up),
-                center[2] + radius * math.cos(up) * math.cos(around))
+        around, up = 2 * math.pi * u, math.pi * (part * v - 0.5)
+        return (radius * math.cos(up) * math.sin(around), radius * math.sin(up), radius * math.cos(up) * math.cos(around))
 
     return Mesh().surface(point, 48, 24, closed=True)
 
 
 def make_gloss():
-    """Tiles of metal and of varnished stone, blocks and poles on them, a golden ball, and a mirror on the back wall."""
+    """Tiles of metal and of varnished stone; on them blocks, poles, a steel bowl and a bumpy plate; a golden ball; a mirror."""
     scene = Gltf("gloss", [1.6, 2.1, 2.8])
     room(scene, scene.material("plaster", (0.7, 0.69, 0.63)))
     color = scene.texture("tiles", picture(lambda place, is_metal: [215, 205, 190] if is_metal else [40, 70, 120]))
@@ -48,7 +49,14 @@ def make_gloss():
         scene.mesh(f"block {i}", Mesh().block((x, 0.2, -0.3), (0.3, 0.4, 0.3), 20.0 * i), scene.material(f"paint {i}", paint))
         scene.mesh(f"pole {i}", Mesh().block((x + 0.42, 0.5, -0.5), (0.03, 1.0, 0.03)), scene.material(f"wood {i}", (0.8, 0.68, 0.4)))
     gold = scene.material("gold", (0, 0, 0), pbrMetallicRoughness=metal((1.0, 0.77, 0.34), 0.25))
-    mover = scene.mesh("ball", ball((0.0, 0.0, 0.0), 0.3), gold, translation=[-1.2, 0.75, -1.4])
+    steel = metal((0.6, 0.6, 0.62), 0.2)
+    scene.mesh("bowl", ball(0.35, 0.5), scene.material("steel", (0, 0, 0), pbrMetallicRoughness=steel), translation=[0.8, 0.36, 0.55])
+    plate = Mesh()
+    plate.quad((-1.1, 0.02, 1.0), (0.9, 0, 0), (0, 0, -0.6), tiles=(4.5, 3.0))
+    bumps = {"index": scene.texture("bumps", tile_normal_map())}
+    scene.mesh("bumpy plate", plate, scene.material("bumpy steel", (0, 0, 0), pbrMetallicRoughness=steel, normalTexture=bumps),
+               textured=True)
+    mover = scene.mesh("ball", ball(0.3), gold, translation=[-1.2, 0.75, -1.4])
     frames = 48
     scene.animate(mover, "translation", [(round(-1.2 + 0.05 * i, 6), 0.75, -1.4) for i in range(frames)])
     scene.animate(mover, "rotation", [turn((0.0, 1.0, 0.0), 4.0 * i) for i in range(frames)])
