@@ -42,7 +42,7 @@ void lint(LintOptions& options) {
   const std::unique_ptr<Denoiser> method = makeDenoiser(layout.conventions.light.everyPixel() ? "none" : "accumulate");
   GpuDenoiser runner(device, *method, sequence.extent(), layout, {.lint = true});
   InputLinter linter(layout.conventions);
-  SpecularLinter specular(layout.conventions);
+  SpecularLinter specular;
   std::vector<NonFiniteChannel> nonFinite;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     const PackedFrame frame = packFrame(sequence.read(i));

@@ -5,7 +5,6 @@
 #include <string>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "integration/include/walr/specular_albedo.h"
@@ -48,7 +47,6 @@ void SpecularLinter::add(const Frame& frame) {
   const auto width = static_cast<std::size_t>(frame.depth.width());
   for (std::size_t i = 0; i < frame.depth.pixelCount(); ++i) {
     if (!isSurface(frame, i)) continue;
-    ++surfaces_;
     const glm::vec3 light = colorAt(frame.specular, i);
     const float distance = frame.specularDistance.pixel(i)[0];
     const float roughness = frame.roughness.pixel(i)[0];
@@ -100,9 +98,7 @@ void SpecularLinter::addRoughness(const Frame& frame, std::size_t pixel) {
   const bool dielectric =
       albedo.x == albedo.y && albedo.y == albedo.z && std::max({diffuse.x, diffuse.y, diffuse.z}) > 0.01F;
   if (!dielectric || !(roughness > 0.0F && roughness < 1.0F)) return;
-  const bool inWorld = conventions_.normal == InputConventions::Space::World;
-  const glm::vec3 normal = (inWorld ? glm::mat3(frame.camera.view) : glm::mat3(1.0F)) * colorAt(frame.normal, pixel);
-  const float cosine = std::abs(glm::dot(normal, rayThrough(frame, pixel)));
+  const float cosine = std::abs(glm::dot(colorAt(frame.normal, pixel), rayThrough(frame, pixel)));
   std::array<float, 3> errors{};
   const std::array readings = {roughness, std::sqrt(roughness), roughness * roughness};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/conventions/inputs.h"
 #include "passes/lint/lint_finding.h"
 #include "samples/sequence/frame.h"
 
@@ -17,19 +16,16 @@ namespace walr {
 /// roughness is found on dielectrics, whose albedo depends on roughness in a known way.
 class SpecularLinter {
  public:
-  explicit SpecularLinter(const InputConventions& conventions) : conventions_(conventions) {}
-
   /// Add a frame; one without specular light is passed over.
   void add(const Frame& frame);
 
+  /// What was found in all frames.
   [[nodiscard]] std::vector<LintFinding> findings() const;
 
  private:
   void addPair(const Frame& frame, std::size_t here, std::size_t there);
   void addRoughness(const Frame& frame, std::size_t pixel);
 
-  InputConventions conventions_;
-  std::uint64_t surfaces_ = 0;
   std::uint64_t notFinite_ = 0;
   std::uint64_t negative_ = 0;
   std::uint64_t badDistances_ = 0;

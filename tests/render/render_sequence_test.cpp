@@ -178,7 +178,7 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
   for (const Case& spoilt : cases) {
     Frame spoiled = frame;
     spoilt.change(spoiled);
-    SpecularLinter linter(sequence.denoiserLayout().conventions);
+    SpecularLinter linter;
     linter.add(spoiled);
     EXPECT_EQ(namesOf(linter.findings()), spoilt.names);
   }
