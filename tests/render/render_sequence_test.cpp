@@ -182,9 +182,23 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
     linter.add(spoiled);
     EXPECT_EQ(namesOf(linter.findings()), spoilt.names);
   }
-  // A folder without the light is not continued with it, nor the other way round.
+  // A folder with the light is not continued without it.
   options.specular = false;
   fg::test::expectError<InputError>([&] { render(options); }, {"'specular'"});
+}
+
+TEST(RenderSequence, ReplacesMirrors) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.scene = WALR_SCENES "/gloss.gltf";
+  options.camera = "mirror";
+  options.specular = options.replaceMirrors = true;
+  options.lastFrame = options.firstFrame;
+  render(options);
+  // A mirror, which has no albedo, fills the centre. It shows a wall of .73, times .95 and Schlick's term.
+  EXPECT_NEAR(Sequence(folder.path(), {}).read(0).albedo.at(16, 9, 0), 0.73F * 0.95F, 0.001F);
+  options.replaceMirrors = false;
+  fg::test::expectError<InputError>([&] { render(options); }, {"'replace_mirrors'"});
 }
 
 TEST(RenderSequence, WritesTheObjectOfEveryPixel) {
