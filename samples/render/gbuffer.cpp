@@ -24,17 +24,6 @@ glm::vec2 imageMotion(const View& view, std::uint32_t x, std::uint32_t y, const 
   return glm::clamp(project(view, previous) - view.previousJitter - center, -outside, outside);
 }
 
-// A pixel is followed through at most this many mirrors.
-constexpr int kMostMirrors = 8;
-
-// The matrix that reflects points at the tangent plane of a mirror.
-glm::mat4 reflectionAt(const Surface& mirror) {
-  const glm::vec3& n = mirror.shadingNormal;
-  glm::mat4 map(glm::mat3(1.0F) - 2.0F * glm::outerProduct(n, n));
-  map[3] = glm::vec4(2.0F * glm::dot(n, mirror.position) * n, 1.0F);
-  return map;
-}
-
 }  // namespace
 
 PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, std::uint32_t y, GBufferMode mode) {
@@ -54,10 +43,10 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
     const bool isMirror = mode == GBufferMode::Material ? glossOf(surface) == Gloss::Specular
                                                         : mode == GBufferMode::BehindMirrors &&
                                                               exact::isMirror(surface.metallic, surface.roughness);
-    if (isMirror && mirrors < kMostMirrors) {
+    if (isMirror && mirrors < exact::kMostMirrors) {
       const Reflection reflection = mirrored(surface);
       result.tint *= reflection.weight;
-      imageFromWorld = imageFromWorld * reflectionAt(surface);
+      imageFromWorld = imageFromWorld * exact::reflectionAt(surface.shadingNormal, surface.position);
       ray = {rayOrigin(surface, reflection.direction), reflection.direction};
       continue;
     }

@@ -23,12 +23,8 @@ float diffuseLobe(DiffuseModel model, const Surface& surface, const glm::vec3& t
   if (model == DiffuseModel::Lambert) {
     return 1.0F;
   }
-  const auto fresnel = [&](const glm::vec3& direction) {
-    const float x = 1.0F - glm::clamp(glm::dot(surface.shadingNormal, direction), 0.0F, 1.0F);
-    return x * x * x * x * x;
-  };
-  const float light = fresnel(towardsLight);
-  const float view = fresnel(surface.towardsViewer);
+  const float light = exact::grazing(glm::dot(surface.shadingNormal, towardsLight));
+  const float view = exact::grazing(glm::dot(surface.shadingNormal, surface.towardsViewer));
   const float cosine = glm::dot(towardsLight, glm::normalize(towardsLight + surface.towardsViewer));
   const float retro = 2.0F * surface.roughness * cosine * cosine;
   return (1.0F - 0.5F * light) * (1.0F - 0.5F * view) + retro * (light + view + light * view * (retro - 1.0F));

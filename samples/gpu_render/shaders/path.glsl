@@ -13,15 +13,10 @@ float lightCosine(Surface surface, vec3 direction) {
   return lightCosine(surface.geometricNormal, surface.shadingNormal, direction);
 }
 
-float fresnel(vec3 normal, vec3 direction) {
-  const float x = 1.0 - clamp(dot(normal, direction), 0.0, 1.0);
-  return x * x * x * x * x;
-}
-
 float diffuseLobe(Surface surface, vec3 towardsLight) {
   if ((trace.flags & kDisneyDiffuse) == 0u) return 1.0;
-  const float light = fresnel(surface.shadingNormal, towardsLight);
-  const float view = fresnel(surface.shadingNormal, surface.towardsViewer);
+  const float light = grazing(dot(surface.shadingNormal, towardsLight));
+  const float view = grazing(dot(surface.shadingNormal, surface.towardsViewer));
   const float cosine = dot(towardsLight, normalize(towardsLight + surface.towardsViewer));
   const float retro = 2.0 * surface.roughness * cosine * cosine;
   return (1.0 - 0.5 * light) * (1.0 - 0.5 * view) + retro * (light + view + light * view * (retro - 1.0));

@@ -103,8 +103,8 @@ WALR_CONSTANT uint kIndependent = 2u;
 WALR_CONSTANT uint kDisneyDiffuse = 1u;     // Diffuse lobe of Disney's model instead of Lambert's.
 WALR_CONSTANT uint kSkySampled = 2u;        // The sky map is not black, see `render::Sky::isSampled`.
 WALR_CONSTANT uint kWholePixel = 4u;        // See `render::ReferenceCoverage::wholePixel`.
-WALR_CONSTANT uint kBehindMirrors = 16u;    // See `render::GBufferMode::BehindMirrors`; only with specular light.
 WALR_CONSTANT uint kDirectInIndirect = 8u;  // Add the direct light to the indirect light, and leave none.
+WALR_CONSTANT uint kBehindMirrors = 16u;    // See `render::GBufferMode::BehindMirrors`; only with specular light.
 
 // The uniform block of a frame.
 struct TraceConstants {

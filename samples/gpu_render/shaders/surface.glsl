@@ -1,8 +1,5 @@
 // Surfaces as in samples/render/surface.cpp.
-#include "samples/render/exact/path.h"
-#ifdef SPECULAR
 #include "samples/render/exact/specular.h"
-#endif
 
 const float kEndless = 3.4e38;
 

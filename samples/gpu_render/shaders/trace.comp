@@ -80,13 +80,6 @@ mat4 imageFromWorld = mat4(1.0);
 vec3 tint = vec3(1.0);
 #define VIRTUAL(matrix) ((matrix) * imageFromWorld)
 #define TINTED(light) ((light) * tint)
-
-mat4 reflectionAt(Surface mirror) {
-  const vec3 n = mirror.shadingNormal;
-  mat4 map = mat4(mat3(1.0) - 2.0 * outerProduct(n, n));
-  map[3] = vec4(2.0 * dot(n, mirror.position) * n, 1.0);
-  return map;
-}
 #else
 #define VIRTUAL(matrix) (matrix)
 #define TINTED(light) (light)
@@ -166,7 +159,7 @@ void main() {
   vec3 shownAlbedo = vec3(0.0);  // The same of the G-buffer.
   bool ofSpecular = false;       // The path is one of the specular lobe.
   bool due = false;              // The sample's path of the specular lobe is not yet traced.
-  uint mirrors = 0u;             // Between the camera and the path's first vertex.
+  int mirrors = 0;               // Between the camera and the path's first vertex.
 #endif
 
   Ray ray = Ray(trace.worldFromView[3].xyz, primaryDirection(p, trace.jitter), kEndless, false);
@@ -236,17 +229,16 @@ void main() {
         }
       } else {
 #ifdef SPECULAR
-        const uint kMostMirrors = 8u;  // Of samples/render/gbuffer.cpp.
         if (met && (trace.flags & kBehindMirrors) != 0u && isMirror(next.metallic, next.roughness) && mirrors < kMostMirrors) {
           const vec3 direction = mirrorDirection(next.shadingNormal, next.towardsViewer);
           const float away = grazing(dot(next.shadingNormal, next.towardsViewer));
           tint *= dot(next.geometricNormal, direction) > 0.0 ? mix(next.reflectance, vec3(1.0), away) : vec3(0.0);
-          imageFromWorld = imageFromWorld * reflectionAt(next);
+          imageFromWorld = imageFromWorld * reflectionAt(next.shadingNormal, next.position);
           ray = Ray(rayOrigin(next), direction, kEndless, false);
           ++mirrors;
           continue;
         }
-        mirrors = 0u;
+        mirrors = 0;
 #endif
         if (purpose == kGBuffer) {
           if (met) {

@@ -24,8 +24,19 @@ WALR_EXACT bool isMirror(float metallic, float roughness) {
   return metallic >= 0.5f && roughness < kMirrorRoughness;
 }
 
+// A pixel is followed through at most this many mirrors.
+WALR_EXACT_CONSTANT int kMostMirrors = 8;
+
 WALR_EXACT vec3 mirrorDirection(vec3 normal, vec3 towardsViewer) {
   return unitOr(normal * (2.0f * exactDot(normal, towardsViewer)) - towardsViewer, normal);
+}
+
+// The matrix that reflects points at the tangent plane of a mirror.
+WALR_EXACT mat4 reflectionAt(vec3 normal, vec3 position) {
+  return mat4(vec4(vec3(1.0f, 0.0f, 0.0f) - normal * (2.0f * normal.x), 0.0f),
+              vec4(vec3(0.0f, 1.0f, 0.0f) - normal * (2.0f * normal.y), 0.0f),
+              vec4(vec3(0.0f, 0.0f, 1.0f) - normal * (2.0f * normal.z), 0.0f),
+              vec4(normal * (2.0f * exactDot(normal, position)), 1.0f));
 }
 
 // Reflectance of a lobe at normal incidence.
