@@ -54,8 +54,9 @@ HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info, const HostedDenoise
       logUser_(info.log_user) {
   device().requireResultFormat(description_.resultFormat());
   // An output that the method does not have is refused here and not in the first frame.
-  if (info.history_length == VK_TRUE || info.light_direction == VK_TRUE || info.expected_error == VK_TRUE)
+  if (info.history_length == VK_TRUE || info.light_direction == VK_TRUE || info.expected_error == VK_TRUE) {
     (void)declareGraph(std::nullopt);
+  }
 }
 
 void HostedDenoiser::log(WalrLogLevel level, const std::string& text) const {

@@ -109,8 +109,7 @@ void Inspection::requireExpectedError() const {
   if (!expectedError_.valid() || expectedErrorWritten_) return;
   throw std::invalid_argument(
       "there is no expected error: use the method walr without spatial-only, with packed accumulation.storage, and "
-      "with "
-      "light whose groups have one row");
+      "with light whose groups have one row");
 }
 
 void Inspection::requireViews() const {
