@@ -159,6 +159,19 @@ TEST_F(SequenceTest, SpecularLightMustBeInAllFramesOrInNone) {
   expectRefused({"noisy_0001.exr", "Specular.R", "SpecularDistance.Z", "Roughness.Y", "SpecularAlbedo.B"}, options);
 }
 
+TEST_F(SequenceTest, SparseSpecularLightHasNoComposite) {
+  Frame frame = test::projectFrame(0, 6, 4);
+  frame.specular = frame.specularAlbedo = Image(6, 4, 3);
+  frame.specularDistance = frame.roughness = Image(6, 4, 1);
+  frame.light = {.columns = 2};
+  writeFrame(directory.path(), frame);
+  SequenceOptions options;
+  options.light.specular = true;
+  EXPECT_FALSE(open(options).read(0).specular.empty());
+  options.light.rest = true;
+  expectRefused({"noisy_0000.exr", "specular light", "--composite"}, options);
+}
+
 TEST_F(SequenceTest, ReadsSparseLight) {
   for (const int number : {0, 1}) {
     Frame frame = test::projectFrame(number, 6, 4);
