@@ -22,6 +22,10 @@ bool leadsUnder(const Surface& surface, const glm::vec3& direction) {
   return glm::dot(surface.geometricNormal, direction) <= 0.0F;
 }
 
+glm::vec3 fresnel(const Surface& surface, float grazing) {
+  return glm::mix(exact::reflectanceOf(surface.reflectance, surface.metallic), glm::vec3(1.0F), grazing);
+}
+
 }  // namespace
 
 Gloss glossOf(const Surface& surface) {
@@ -37,8 +41,7 @@ Reflection mirrored(const Surface& surface) {
     return {direction, glm::vec3(0.0F)};
   }
   const float cosine = glm::dot(surface.shadingNormal, surface.towardsViewer);
-  return {direction, glm::mix(exact::reflectanceOf(surface.reflectance, surface.metallic), glm::vec3(1.0F),
-                              exact::grazing(cosine))};
+  return {direction, fresnel(surface, exact::grazing(cosine))};
 }
 
 Reflection sampleReflection(const Surface& surface, const glm::vec2& random) {
@@ -49,8 +52,7 @@ Reflection sampleReflection(const Surface& surface, const glm::vec2& random) {
     return {direction, glm::vec3(0.0F)};
   }
   const exact::SpecularLobe lobe = exact::specularLobe(surface.shadingNormal, surface.towardsViewer, direction, alpha);
-  return {direction,
-          glm::mix(surface.reflectance, glm::vec3(1.0F), lobe.grazing) * (lobe.value * cosine / lobe.density)};
+  return {direction, fresnel(surface, lobe.grazing) * (lobe.value * cosine / lobe.density)};
 }
 
 GlossySample traceGlossy(const World& world, const Surface& surface, std::uint32_t bounces, Sampler& sampler,
