@@ -38,10 +38,11 @@ std::vector<unsigned char> readWholeFile(const fs::path& file, const FilesRead& 
   }
   const std::uintmax_t size = fs::file_size(file, error);
   if (error || size > kLargestSceneFile.most) {
-    throw SceneError(error ? error.message() : "larger than 2 GiB");
+    throw SceneError(error ? error.message() : "larger than " + std::to_string(kLargestSceneFile.most) + " bytes");
   }
   if (size > files.budget) {
-    throw SceneError("the scene's files exceed 4 GiB in all; a file counts once for each time it is named");
+    throw SceneError("the scene's files exceed " + std::to_string(kMostSceneBytes.most) +
+                     " bytes in all; a file counts once for each time it is named");
   }
   std::vector<unsigned char> bytes(size);
   std::ifstream stream(file, std::ios::binary);

@@ -29,7 +29,9 @@ OptionalIndices convertImages(const tinygltf::Model& model, Scene& scene) {
     try {
       const std::span<const std::uint8_t> bytes =
           source.bufferView < 0 ? std::span(source.image) : bufferViewBytes(model, source.bufferView, name);
-      Image image = decodeImage(bytes, budget);
+      std::string warning;
+      Image image = decodeImage(bytes, budget, warning);
+      if (!warning.empty()) scene.warnings.push_back(name + ": may be damaged: " + warning);
       image.name = name;
       indices.back() = static_cast<std::uint32_t>(scene.images.size());
       scene.images.push_back(std::move(image));

@@ -48,7 +48,7 @@ Image sizedImage(std::uint32_t width, std::uint32_t height, std::uint64_t most, 
 class PngReader {
  public:
   explicit PngReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngReader::fail, [](png_structp, png_const_charp) {});
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngReader::fail, &PngReader::warn);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
     if (info_ == nullptr) {
       png_destroy_read_struct(&png_, &info_, nullptr);
@@ -63,9 +63,9 @@ class PngReader {
   bool readHeader() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, this, &PngReader::give);
-    // Colour profiles and texts are of no use, and compressed; exporters get checksums wrong.
+    // Colour profiles and texts are of no use, and compressed. Exporters get checksums wrong.
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-    png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+    png_set_crc_action(png_, PNG_CRC_WARN_USE, PNG_CRC_QUIET_USE);
     png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // The caller has a better message.
     png_read_info(png_, info_);
@@ -92,12 +92,18 @@ class PngReader {
     return kExpansion * 8 / (png_get_channels(png_, info_) * png_get_bit_depth(png_, info_));
   }
   [[nodiscard]] std::string error() const { return error_.data(); }
+  [[nodiscard]] std::string warning() const { return warning_.data(); }
 
  private:
+  using Message = std::array<char, 100>;
+
+  static void copy(png_const_charp from, Message& to) { std::strncpy(to.data(), from, to.size() - 1); }
   static void fail(png_structp png, png_const_charp message) {
-    std::array<char, 100>& error = static_cast<PngReader*>(png_get_error_ptr(png))->error_;
-    std::strncpy(error.data(), message, error.size() - 1);
+    copy(message, static_cast<PngReader*>(png_get_error_ptr(png))->error_);
     png_longjmp(png, 1);
+  }
+  static void warn(png_structp png, png_const_charp message) {
+    copy(message, static_cast<PngReader*>(png_get_error_ptr(png))->warning_);
   }
   static void give(png_structp png, png_bytep bytes, std::size_t count) {
     std::span<const std::uint8_t>& rest = static_cast<PngReader*>(png_get_io_ptr(png))->rest_;
@@ -109,19 +115,27 @@ class PngReader {
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   std::span<const std::uint8_t> rest_;
-  std::array<char, 100> error_{};
+  Message error_{};
+  Message warning_{};
 };
 
-Image decodePng(std::span<const std::uint8_t> bytes, std::uint64_t texelBudget) {
+Image decodePng(std::span<const std::uint8_t> bytes, std::uint64_t texelBudget, std::string& warning) {
   PngReader png(bytes);
   if (!png.readHeader()) throw SceneError("cannot be read: " + png.error());
   Image image = sizedImage(png.width(), png.height(), png.texelsOfAByte() * bytes.size(), texelBudget);
   image.rgba.resize(std::size_t{kRgba} * image.width * image.height);
   if (!png.readPixels(image.rgba)) throw SceneError("cannot be decoded: " + png.error());
+  warning = png.warning();
   return image;
 }
 
 Image decodeJpeg(std::span<const std::uint8_t> bytes, std::uint64_t texelBudget) {
+  // A scan of a progressive JPEG may pass over all texels in some bytes.
+  std::int64_t scans = 0;
+  for (std::size_t i = 1; i < bytes.size(); ++i) scans += bytes[i - 1] == 0xff && bytes[i] == 0xda ? 1 : 0;
+  if (scans > kMostScans.most) {
+    throw SceneError("has " + std::to_string(scans) + " scans; the limit is " + std::to_string(kMostScans.most));
+  }
   const int size = static_cast<int>(bytes.size());
   int width = 0;
   int height = 0;
@@ -145,12 +159,12 @@ Image decodeJpeg(std::span<const std::uint8_t> bytes, std::uint64_t texelBudget)
 
 }  // namespace
 
-Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudget) {
+Image decodeImage(std::span<const std::uint8_t> bytes, std::uint64_t& texelBudget, std::string& warning) {
   const bool png = startsWith(bytes, kPng);
   if (!png && !startsWith(bytes, kJpeg)) {
     throw SceneError("not a PNG or JPEG image");
   }
-  Image image = png ? decodePng(bytes, texelBudget) : decodeJpeg(bytes, texelBudget);
+  Image image = png ? decodePng(bytes, texelBudget, warning) : decodeJpeg(bytes, texelBudget);
   texelBudget -= std::uint64_t{image.width} * image.height;
   return image;
 }

@@ -16,6 +16,8 @@ inline constexpr FileLimit kDeepestJson{128, "levels of JSON"};
 inline constexpr FileLimit kMostJsonValues{1 << 25, "values of JSON"};
 inline constexpr FileLimit kMostTexelsASide{16384, "texels along a side of an image"};
 inline constexpr FileLimit kMostTexels{1 << 28, "texels of all images, of 4 bytes each"};
+/// libjpeg writes ten.
+inline constexpr FileLimit kMostScans{64, "scans of a JPEG"};
 inline constexpr FileLimit kMostElements{1 << 27, "vertices, indices and animation keys, counted once for each use"};
 inline constexpr FileLimit kMostZeros{1 << 22, "of these in accessors without a buffer view"};
 inline constexpr FileLimit kMostTriangles{1 << 26, "triangles, counted once for each node"};
@@ -29,6 +31,7 @@ inline constexpr std::array kSceneLimits{kLargestSceneFile,
                                          kMostJsonValues,
                                          kMostTexelsASide,
                                          kMostTexels,
+                                         kMostScans,
                                          kMostElements,
                                          kMostZeros,
                                          kMostTriangles,
