@@ -49,7 +49,7 @@ struct LintReading {
   glm::dvec2 scale{1.0};        ///< Multiplies motion to give pixels, beside the stated scale; 0: motion is 0.
   double depthScale = 1.0;      ///< Multiplies depth.
   Depth depth = Depth::Axis;
-  double fitted = 1.0;  ///< A factor that was fitted to the samples.
+  glm::dvec2 fitted{1.0};  ///< Factors of x and y that were fitted to the samples.
 
   [[nodiscard]] bool samePlaces(const LintReading& other) const {
     return previousFromView == other.previousFromView && ray == other.ray && previousRay == other.previousRay &&

@@ -89,9 +89,8 @@ bool otherProjection(Context context, Signs, Reading reading) {
   const LintReading stated = reading;
   const auto read = [&](double logarithm) {
     reading = stated;
-    reading.fitted = std::exp(logarithm);
-    const glm::dvec2 factor(x ? reading.fitted : 1.0, y ? reading.fitted : 1.0);
-    for (glm::dvec4* ray : {&reading.ray, &reading.previousRay}) *ray *= glm::dvec4(factor, factor);
+    reading.fitted = {x ? std::exp(logarithm) : 1.0, y ? std::exp(logarithm) : 1.0};
+    for (glm::dvec4* ray : {&reading.ray, &reading.previousRay}) *ray *= glm::dvec4(reading.fitted, reading.fitted);
   };
   const auto near = [&](double logarithm) {
     read(logarithm);
@@ -178,7 +177,7 @@ bool inOtherPixels(Context context, Signs, Reading reading) {
   }
   if (!factors[0] && !factors[1]) return false;
   reading.scale = {factors[0] ? *factors[0] : *factors[1], factors[1] ? *factors[1] : *factors[0]};
-  reading.fitted = reading.scale.x;
+  reading.fitted = reading.scale;
   const auto isOther = [&](double factor) { return factor > 1.0 / kMost && factor < kMost; };
   return isOther(reading.scale.x) && isOther(reading.scale.y) &&
          std::max(std::abs(std::log(reading.scale.x)), std::abs(std::log(reading.scale.y))) > 0.1;
@@ -273,7 +272,7 @@ bool scaledDepth(Context context, Signs, Reading reading) {
     inverse.push_back(inverseDepthFromMotion(context.frame, reading, sample) * depthOf(reading, sample));
   }
   const double factor = median(inverse).value_or(0.0);
-  if (factor > 0.0) reading.fitted = reading.depthScale = 1.0 / factor;
+  if (factor > 0.0) reading.fitted = glm::dvec2(reading.depthScale = 1.0 / factor);
   return factor > 0.0;
 }
 
@@ -311,10 +310,12 @@ std::vector<LintHypothesis> makeHypotheses() {
          {same, y, xy, x});
   addAll("motion-unit", inPixels, "motion is in pixels, not in the stated unit",
          "state so (WALR_MOTION_PIXELS), and negate an axis whose sign differs (motion_scale)", {same, y, xy, x});
-  add("motion-unit", inOtherPixels,
-      "motion is in pixels of a picture of another size, such as that of the output, or in a share of the picture",
-      "scale it to pixels of the picture that is denoised (motion_scale)")
-      .fits = true;
+  LintHypothesis& otherPixels =
+      add("motion-unit", inOtherPixels,
+          "motion is in pixels of a picture of another size, such as that of the output, or in a share of the picture",
+          "scale it to pixels of the picture that is denoised (motion_scale)");
+  otherPixels.fits = true;
+  otherPixels.factorOf = "motion";
   add("motion-jitter", jitterTheOtherWay,
       "motion holds the difference of the two frames' jitter though stated to be without, or leaves it out",
       "state the other (motion_jittered), or make motion with or without jitter, as stated");
@@ -354,21 +355,29 @@ std::vector<LintHypothesis> makeHypotheses() {
          "write the motion of all surfaces, or, where only the camera moves, set scene.object-motion off",
          {{0, 1, 1}, {1, 0, 1}, {0, 0, 1}});
   using Depth = LintReading::Depth;
-  add("depth-unit", scaledDepth<Depth::Axis>,
-      "depth and the view matrices are in different units, such as centimetres and metres",
-      "write depth in the units of the view matrices")
-      .ofPlaces = true;
+  LintHypothesis& depthUnit = add("depth-unit", scaledDepth<Depth::Axis>,
+                                  "depth and the view matrices are in different units, such as centimetres and metres",
+                                  "write depth in the units of the view matrices");
+  depthUnit.ofPlaces = true;
+  depthUnit.factorOf = "depth";
   add("depth-distance", depthAlongRay,
       "depth is the distance from the camera, as a ray's length, not along the view axis",
       "multiply it by the cosine of ray and view axis")
       .ofPlaces = true;
   const std::string_view linearise = "state device depth and its projection (WALR_DEPTH_DEVICE), or make it linear";
-  for (const auto apply : {otherProjection<true, true>, otherProjection<true, false>, otherProjection<false, true>}) {
+  struct Projection {
+    decltype(LintHypothesis::apply) apply;
+    std::string_view factorOf;
+  };
+  for (const auto& [apply, factorOf] : {Projection{otherProjection<true, true>, "the width and height of the view"},
+                                        Projection{otherProjection<true, false>, "the width of the view"},
+                                        Projection{otherProjection<false, true>, "the height of the view"}}) {
     LintHypothesis& projection = add(
         "projection", apply, "the projection has another field of view or aspect ratio than the images",
         "hand over the projection with which the frame was rendered: its focal lengths are 1 / tan(half the vertical "
         "field of view), and that divided by width / height");
     projection.ofPlaces = projection.fits = true;
+    projection.factorOf = factorOf;
   }
   add("depth-device", scaledDepth<Depth::Device>,
       "depth is that of a projection, 0 near and 1 far, not linear view depth", linearise)

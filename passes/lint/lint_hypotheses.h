@@ -31,7 +31,8 @@ struct LintHypothesis {
   bool fitsStated = false;  ///< It holds wherever the stated reading does.
   bool ofPlaces = false;    ///< It reads other positions from depth, of which motion.z and normals tell nothing.
   bool fits = false;  ///< `apply` fits numbers to samples: only for frames that the stated reading does not explain.
-  bool alternates = false;  ///< What motion holds sums up to little over frames, as jitter does.
+  std::string_view factorOf = {};  ///< What `LintReading::fitted` multiplies, for the finding.
+  bool alternates = false;         ///< What motion holds sums up to little over frames, as jitter does.
 };
 
 /// All mistakes. Of two that explain the same, the first one is likelier.

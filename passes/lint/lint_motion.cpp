@@ -13,12 +13,12 @@ bool LintJudge::has(std::string_view name) const {
 
 namespace {
 
-/// The factor of depth, of motion.x or of the rays' slopes that was fitted.
-std::string factorOf(const LintScore& score) {
-  if (score.mostFitted == 0.0 || score.mostFitted == 1.0) return "";  // In no frame, or nothing was fitted.
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), ", with a factor of %.3g", score.mostFitted);
-  return text.data();
+/// ", with depth times 0.01"
+std::string withFactor(const LintHypothesis& mistake, double factor) {
+  if (mistake.factorOf.empty()) return "";
+  std::array<char, 24> number{};
+  std::snprintf(number.data(), number.size(), "%.3g", factor);
+  return ", with " + std::string(mistake.factorOf) + " times " + number.data();
 }
 
 }  // namespace
@@ -27,25 +27,28 @@ void LintJudge::judgeMistake(const LintScores& scores, std::size_t best) {
   const LintHypothesis& mistake = lintHypotheses()[best];
   const LintScore& score = scores.mistakes[best];
   const std::string rivals = scores.rivals(best);
-  const auto agrees = [&](const std::string& factor) {
+  const glm::dvec2& fitted = score.mostFitted;
+  const auto agrees = [&](double factor) {
     return " agrees with cameras and depth on " + share(score.better, score.tested, "samples") +
-           " if they are read another way" + factor + ", and on " + std::to_string(score.worse) + " as stated" +
-           (rivals.empty() ? "" : " (less likely mistakes that explain as much: " + rivals + ")");
+           " if they are read another way" + withFactor(mistake, factor) + ", and on " + std::to_string(score.worse) +
+           " as stated" + (rivals.empty() ? "" : " (less likely mistakes that explain as much: " + rivals + ")");
   };
   static constexpr std::array<std::array<std::string_view, 3>, 2> kNames{
       {{"motion-x-direction", "motion-x-unit", "motion-x-missing"},
        {"motion-y-direction", "motion-y-unit", "motion-y-missing"}}};
   static constexpr std::array<std::string_view, 3> kKinds{"motion-direction", "motion-unit", "motion-missing"};
   const auto kind = std::ranges::find(kKinds, mistake.name);
-  if (kind == kKinds.end())
-    return add({mistake.name, "motion" + agrees(factorOf(score)), mistake.cause, mistake.wayOut});
+  if (kind == kKinds.end()) {
+    const double factor = fitted.x == 1.0 ? fitted.y : fitted.x;  // Of a projection one may be 1.
+    return add({mistake.name, "motion" + agrees(factor), mistake.cause, mistake.wayOut});
+  }
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double sign = mistake.signs[int(axis)];
     if ((sign == 1.0 && mistake.name != "motion-unit") || score.axes.at(axis) < kLeastLintSample) continue;
     std::string subject = axis == 0 ? "motion.x" : "motion.y";
     if (sign <= 0.0) subject += sign == 0.0 ? " is 0 and" : ", negated,";
-    add({kNames.at(axis).at(std::size_t(kind - kKinds.begin())), subject + agrees(axis == 0 ? factorOf(score) : ""),
-         mistake.cause, mistake.wayOut});
+    add({kNames.at(axis).at(std::size_t(kind - kKinds.begin())), subject + agrees(fitted[int(axis)]), mistake.cause,
+         mistake.wayOut});
   }
 }
 
@@ -75,7 +78,8 @@ bool LintJudge::judgeOrder() {
   const std::string of = " of " + std::to_string(order.frames) + " frames";
   if (most(order.repeated)) {
     add({"frames-repeated",
-         "the camera is that of the frame before, but moves by its own word, in " + std::to_string(order.repeated) + of,
+         "the camera is that of the frame before, though the previous camera is another one, in " +
+             std::to_string(order.repeated) + of,
          "the same frame was handed over again", "render every frame, and hand each over once"});
   } else if (most(order.reversed)) {
     add({"frames-reversed",

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "passes/conventions/camera_check.h"
 
@@ -77,7 +79,7 @@ void addSample(LintScore& score, const LintHypothesis& mistake, const Stated& st
 bool LintScore::explains(const LintHypothesis& mistake) const {
   if (better < kLeastLintSample || 2 * better <= tested || better <= 20 * worse) return false;
   if (mistake.alternates && jitterLength <= 2.0 * glm::length(jitterSum)) return false;
-  return mostFitted < 1.1 * leastFitted;  // A unit stays the same.
+  return glm::all(glm::lessThan(mostFitted, 1.1 * leastFitted));  // A unit stays the same.
 }
 
 std::optional<std::size_t> LintScores::best() const {
@@ -151,8 +153,8 @@ void LintMotion::score(LintScores& scores, const LintContext& context) const {
       addSample(score, mistake, sample, seen);
     }
     if (2 * (score.better - better) <= score.tested - tested) continue;
-    score.leastFitted = std::min(score.leastFitted, reading.fitted);
-    score.mostFitted = std::max(score.mostFitted, reading.fitted);
+    score.leastFitted = glm::min(score.leastFitted, reading.fitted);
+    score.mostFitted = glm::max(score.mostFitted, reading.fitted);
   }
 }
 

@@ -31,8 +31,8 @@ struct LintScore {
   glm::dvec2 jitterSum{0.0};
   double jitterLength = 0.0;
   // `LintReading::fitted` in frames that it explains:
-  double leastFitted = std::numeric_limits<double>::max();
-  double mostFitted = 0.0;
+  glm::dvec2 leastFitted{std::numeric_limits<double>::max()};
+  glm::dvec2 mostFitted{0.0};
 
   /// Whether the reading explains what the stated one does not: most of what tells the two apart, and twenty times
   /// as much as the reverse. A mistake shows on all surfaces that stand still; they may be few, but those that fit by

@@ -122,9 +122,8 @@ void LintJudge::judgeValues() {
   const std::uint64_t surfaces = counts_[kLintSurfaces];
   if (!noSamples && surfaces >= kLeastLintSample && counts_.litPixels() == 0) {
     add({"lighting-zero", "the lighting is 0 on all " + std::to_string(surfaces) + " pixels with a surface",
-         "the lighting image was not written, or is another one, or the scene has no such light, as a lone object has "
-         "no "
-         "indirect light",
+         "the lighting image was not written, or is another one, or the scene has none: a lone object "
+         "receives no indirect light",
          "write the light before the denoiser runs, or hand over direct light"});
   }
   if (isMost(counts_[kLintNormalZero], surfaces)) {

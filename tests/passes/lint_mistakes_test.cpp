@@ -448,5 +448,41 @@ std::vector<Kind> kinds() {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, LintMistakes, testing::ValuesIn(kinds()));
 
+using LintFactors = fg::test::GpuTest;
+
+TEST_F(LintFactors, AreTold) {
+  struct Case {
+    std::function<void(Frames&)> make;
+    Names told;  ///< Of each finding.
+  };
+  const Case cases[] = {
+      {[](Frames& frames) {
+         scaleMotion(frames, {2, 0.5, 1});
+       },
+       {"with motion times 0.5,", "with motion times 2,"}},
+      {[](Frames& frames) {
+         changeDepth(frames, [](const HostFrame& frame, glm::ivec2 p) { return 100.0 * frame.depth[p]; });
+       },
+       {"with depth times 0.01,"}},
+      {[](Frames& frames) {
+         changeCameras(frames, [](FrameDescription& camera, std::size_t) {
+           for (glm::mat4* projection : {&camera.projection, &camera.previousProjection}) (*projection)[0][0] *= 1.3F;
+         });
+       },
+       {"with the width of the view times 1.3,"}},
+  };
+  const Kind kind = kinds().front();
+  LintRun run(device(), kSize);
+  for (const Case& mistake : cases) {
+    Frames frames = framesOf(kind);
+    mistake.make(frames);
+    const std::vector<LintFinding> findings = run.lint(frames, conventionsOf(kind));
+    ASSERT_EQ(findings.size(), mistake.told.size());
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+      EXPECT_NE(findings[i].what.find(mistake.told[i]), std::string::npos) << findings[i].what;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace walr::test
