@@ -88,8 +88,7 @@ void LiveFrame::declare(Denoiser& method, const HostView& view, Start start) {
                                                .device = std::move(device),
                                                .rays = std::move(rays),
                                                .counts = std::move(counts),
-                                               .linter = InputLinter({.light = light_}),
-                                               .checked = std::vector<std::optional<Checked>>(framesInFlight_)});
+                                               .linter = InputLinter({.light = light_})});
 }
 
 void LiveFrame::changeScene(const gpu_render::GpuScene* scene) {
@@ -106,6 +105,7 @@ void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, co
   for (int* const edge : {&constants.leftEdge, &constants.rightEdge, &constants.middleEdge}) {
     *edge = static_cast<int>(std::int64_t{*edge} * extent_.width / picture_.desc().extent.width);
   }
+  lint(recorded.slot);
   uploadFrame(running_->device.executor(), running_->host, frame, constants);
   running_->device.executor().record(recorded.commandBuffer, recorded.slot);
   for (const auto* const buffer : {&running_->rays, &running_->counts}) {
@@ -113,7 +113,8 @@ void LiveFrame::record(const fg::vk::Frame& recorded, const HostFrame& frame, co
   }
   if (running_->counts) {
     const Frame& inputs = frame.inputs.frame;
-    running_->checked[recorded.slot] = {frameDescriptionOf(inputs, glm::vec2(1.0F)), extent_, !inputs.resetHistory};
+    running_->unchecked.push_back(
+        {recorded.slot, frameDescriptionOf(inputs, glm::vec2(1.0F)), extent_, !inputs.resetHistory});
   }
   // The first frame of a graph reads the histories of its predecessor.
   if (predecessor_ != nullptr) retired_.push_back({std::move(predecessor_), frames_ + framesInFlight_});
@@ -129,9 +130,12 @@ std::optional<TracedRays> LiveFrame::traced(std::uint32_t slot) {
 }
 
 void LiveFrame::lint(std::uint32_t slot) {
-  const std::optional<Checked> frame = std::exchange(running_->checked[slot], std::nullopt);
-  if (!frame) return;
-  running_->linter.add(wordsOf(*running_->counts, slot), frame->camera, frame->extent, frame->continues);
+  std::deque<Unchecked>& unchecked = running_->unchecked;
+  while (std::ranges::find(unchecked, slot, &Unchecked::slot) != unchecked.end()) {
+    const Unchecked& frame = unchecked.front();
+    running_->linter.add(wordsOf(*running_->counts, frame.slot), frame.camera, frame.extent, frame.continues);
+    unchecked.pop_front();
+  }
 }
 
 std::vector<LintFinding> LiveFrame::findings() const {

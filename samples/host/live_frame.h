@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -92,7 +93,7 @@ class LiveFrame {
     return running_->device.executor().passTimes(slot);
   }
 
-  /// Check the inputs of the same frame, if the view asks for it (`HostView::lint`).
+  /// Check the inputs of the same frame and of those before it, if the view asks for it (`HostView::lint`).
   void lint(std::uint32_t slot);
   /// What looks wrong in the frames that were checked since the graph was declared.
   [[nodiscard]] std::vector<LintFinding> findings() const;
@@ -101,7 +102,8 @@ class LiveFrame {
   std::optional<TracedRays> traced(std::uint32_t slot);
 
  private:
-  struct Checked {
+  struct Unchecked {
+    std::uint32_t slot;
     FrameDescription camera;
     fg::Extent extent;
     bool continues;
@@ -112,8 +114,8 @@ class LiveFrame {
     std::optional<fg::vk::StagedBuffer> rays;    ///< Of `HostGraph::rays`.
     std::optional<fg::vk::StagedBuffer> counts;  ///< Of `HostGraph::lint`.
     InputLinter linter;
-    std::vector<std::optional<Checked>> checked;  ///< Frames that the linter has not seen yet, by slot.
-    std::uint32_t frames = 0;                     ///< Number of recorded frames.
+    std::deque<Unchecked> unchecked = {};  ///< Frames that the linter has not seen yet, earliest first.
+    std::uint32_t frames = 0;              ///< Number of recorded frames.
   };
   struct Retired {
     std::unique_ptr<Running> graph;

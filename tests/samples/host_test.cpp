@@ -320,9 +320,13 @@ class LiveFrameTest : public HostTest {
     if (change) change(frame);
     ++number;
     const fg::vk::Frame recorded = queue.begin();
-    live.lint(recorded.slot);
     live.record(recorded, frame, {});
     queue.submit(recorded);
+  }
+  std::vector<std::string> findings() {
+    std::vector<std::string> names;
+    for (const LintFinding& finding : live.findings()) names.emplace_back(finding.name);
+    return names;
   }
   std::vector<std::uint32_t> ages() {
     std::vector<std::uint32_t> ages;
@@ -371,10 +375,23 @@ TEST_F(LiveFrameTest, APreviousCameraThatIsThisOneIsToldInTenFrames) {
         if (wrong) camera.previousView = camera.view;
       });
     }
-    std::vector<std::string> names;
-    for (const LintFinding& finding : live.findings()) names.emplace_back(finding.name);
-    EXPECT_EQ(names, wrong ? std::vector<std::string>{"camera-still"} : std::vector<std::string>{});
+    EXPECT_EQ(findings(), wrong ? std::vector<std::string>{"camera-still"} : std::vector<std::string>{});
   }
+}
+
+// A window that waits for the next frame checks the last one first, whose slot comes again.
+TEST_F(LiveFrameTest, FramesAreCheckedInTheirOrder) {
+  const std::unique_ptr<Denoiser> method = makeDenoiser("none");
+  live.declare(*method, {.lint = true}, LiveFrame::Start::Anew);
+  for (int i = 0; i < 5; ++i) {
+    record();
+    record();
+    queue.submit(queue.begin());
+    const fg::vk::Frame last = queue.begin();
+    live.lint(last.slot);
+    queue.submit(last);
+  }
+  EXPECT_EQ(findings(), std::vector<std::string>{});
 }
 
 // Frames of the previous graph are in flight at every change.
