@@ -405,7 +405,8 @@ def refused(host, screen):
 
 
 def lint(host, screen):
-    """What looks wrong in the inputs is listed below the panel while they are checked. A scene without walls has no indirect light."""
+    """What looks wrong in the inputs is listed below the panel while they are checked. A scene without walls has no
+    indirect light."""
     corners = struct.pack("<9f", -3, -3, 0, 3, -3, 0, 0, 4, 1)
     one_triangle = {
         "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],

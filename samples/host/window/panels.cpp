@@ -194,17 +194,20 @@ ImU32 colourOf(std::size_t index) {
   return ImGui::GetColorU32(static_cast<ImVec4>(ImColor::HSV(hue, 0.55F, 0.8F)));
 }
 
-/// A text at the foot of the panel. @returns its height; 0 if there is none
+/// A text at the foot of the panel, which takes at most half of what is above `corner`: a longer one is scrolled.
+/// @returns its height; 0 if there is none
 float footPanel(const char* name, const std::string& message, ImU32 colour, const ImVec2& corner, float width) {
   if (message.empty()) return 0.0F;
   const char* const text = message.c_str();
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   const float lines = ImGui::CalcTextSize(text, nullptr, false, width - 2.0F * padding.x).y;
-  const float height = lines + 2.0F * padding.y;
+  const float height = std::min(lines + 2.0F * padding.y, 0.5F * corner.y);
   ImGui::SetNextWindowPos({corner.x, corner.y - height});
   ImGui::SetNextWindowSize({width, height});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, colour);
-  ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
   ImGui::TextWrapped("%s", text);
   ImGui::End();
   ImGui::PopStyleColor();
@@ -429,7 +432,7 @@ float refusalPanel(const Session& session, const ImVec2& corner, float width) {
 
 float findingsPanel(const FrameFacts& facts, const ImVec2& corner, float width) {
   std::string text;
-  for (const LintFinding& finding : facts.findings) text += (text.empty() ? "" : "\n") + finding.text();
+  for (const LintFinding& finding : facts.findings) text += (text.empty() ? "" : "\n\n") + finding.text();
   return footPanel("findings", text, IM_COL32(80, 20, 90, 255), corner, width);
 }
 
