@@ -11,9 +11,10 @@ class LintEdges {
  public:
   void add(const LintFrame& frame);
 
-  /// Places where depth grows to more than three times from one neighbour of a sample to the opposite one, which no
-  /// plane explains, and those of them where the sample lies between both.
+  /// Samples with an edge across them: on one side depth is more than three times that on the other, and no plane
+  /// explains it.
   [[nodiscard]] std::uint64_t edges() const { return edges_; }
+  /// Edges on which the sample's depth lies between both.
   [[nodiscard]] std::uint64_t between() const { return between_; }
 
  private:
