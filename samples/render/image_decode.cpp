@@ -6,6 +6,7 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <png.h>
 #include <stb_image.h>
@@ -131,11 +132,17 @@ Image decodePng(std::span<const std::uint8_t> bytes, std::uint64_t texelBudget, 
 
 Image decodeJpeg(std::span<const std::uint8_t> bytes, std::uint64_t texelBudget) {
   // A scan of a progressive JPEG may pass over all texels in some bytes.
+  constexpr std::string_view kScan = "\xff\xda";
+  constexpr std::string_view kEnd = "\xff\xd9";
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::int64_t scans = 0;
-  for (std::size_t i = 1; i < bytes.size(); ++i) scans += bytes[i - 1] == 0xff && bytes[i] == 0xda ? 1 : 0;
+  std::size_t last = 0;
+  for (std::size_t at = 0; (at = text.find(kScan, at)) != text.npos; at += kScan.size(), ++scans) last = at;
   if (scans > kMostScans.most) {
     throw SceneError("has " + std::to_string(scans) + " scans; the limit is " + std::to_string(kMostScans.most));
   }
+  // Later versions of stb_image make up the rest.
+  if (text.find(kEnd, last) == text.npos) throw SceneError("cannot be decoded: it ends too early");
   const int size = static_cast<int>(bytes.size());
   int width = 0;
   int height = 0;

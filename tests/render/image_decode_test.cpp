@@ -82,6 +82,14 @@ TEST(ImageDecode, AWrongChecksumIsTold) {
   EXPECT_NE(warning.find("IDAT: CRC error"), std::string::npos) << warning;
 }
 
+TEST(ImageDecode, AJpegThatEndsTooEarlyIsRefused) {
+  std::string jpeg = test::smallJpeg();
+  std::string warning;
+  EXPECT_EQ(decode(jpeg, warning).width, 24U);
+  jpeg.resize(jpeg.size() - 6);
+  fg::test::expectError<SceneError>([&] { decode(jpeg, warning); }, {"it ends too early"});
+}
+
 // A scan of 30 bytes of a progressive JPEG took 70 ms per million texels.
 TEST(ImageDecode, ScansOfAJpegAreCounted) {
   std::string jpeg = test::smallJpeg();
