@@ -12,8 +12,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f) uniform readonly image2D result;
 uniform utexture2D accumulated;
 #ifdef VIEW
-layout(constant_id = 8) const uint kView = 0;  // Which quantity; there is one.
 layout(rgba32f) uniform writeonly image2D outView;
+layout(push_constant) uniform PushConstants {
+  uint view;  // Which quantity; there is one.
+};
 #else
 layout(r16f) uniform writeonly image2D outExpectedError;
 #endif
@@ -72,7 +74,7 @@ void main() {
   const float squared = kUntold / (float(size.y) * sqrt(float(size.y))) + ofTile.x / max(ofTile.y, 1.0);
   const float error = ofTile.y > 0.0 ? sqrt(squared) : 0.0;
 #ifdef VIEW
-  imageStore(outView, p, vec4(kView == 0u ? vec3(error, contrast, residual) * counted : vec3(0.0), 1.0));
+  imageStore(outView, p, vec4(view == 0u ? vec3(error, contrast, residual) * counted : vec3(0.0), 1.0));
 #else
   imageStore(outExpectedError, p, vec4(error, 0.0, 0.0, 1.0));
 #endif
