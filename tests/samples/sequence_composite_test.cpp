@@ -10,24 +10,14 @@
 #include "samples/sequence/sequence.h"
 #include "samples/sequence/writer.h"
 #include "tests/error_text.h"
-#include "tests/samples/synthetic_sequence.h"
-#include "tests/samples/temporary_directory.h"
+#include "tests/samples/sequence_fixture.h"
 
 namespace walr {
 namespace {
 
 using test::Channels;
 
-class CompositeSequence : public testing::Test {
- protected:
-  [[nodiscard]] Sequence open(SequenceOptions options = {}) const { return {files.folder(), std::move(options)}; }
-  void expectRefused(std::initializer_list<std::string_view> parts, const SequenceOptions& options = {}) const {
-    fg::test::expectError<InputError>([&] { static_cast<void>(open(options)); }, parts);
-  }
-
-  test::TemporaryDirectory directory;
-  test::SyntheticSequence files{directory.path(), 6, 4};
-};
+class CompositeSequence : public test::SequenceFixture {};
 
 TEST_F(CompositeSequence, CompositeChannelsAreNeededForACompositeOnly) {
   files.write(0, 0);

@@ -19,29 +19,20 @@
 #include "samples/sequence/sequence.h"
 #include "tests/error_text.h"
 #include "tests/samples/exr_files.h"
-#include "tests/samples/synthetic_sequence.h"
-#include "tests/samples/temporary_directory.h"
+#include "tests/samples/sequence_fixture.h"
 
 namespace walr {
 namespace {
 
 namespace fs = std::filesystem;
 
-class FoundSequence : public testing::Test {
- protected:
-  void expectRefused(std::initializer_list<std::string_view> parts) const {
-    fg::test::expectError<InputError>([&] { Sequence(directory.path(), {}); }, parts);
-  }
-
-  walr::test::TemporaryDirectory directory;
-  test::SyntheticSequence files{directory.path(), 6, 4};
-};
+class FoundSequence : public test::SequenceFixture {};
 
 TEST_F(FoundSequence, UpperCaseNamesAreFramesAndHiddenFilesAreNot) {
   files.write(0, 1);
   fs::rename(files.frameFile(1), directory.path() / "noisy_0001.EXR");
   std::ofstream(directory.path() / "._noisy_0000.exr") << "Mac OS X";
-  EXPECT_EQ(Sequence(directory.path(), {}).entries().size(), 2U);
+  EXPECT_EQ(open().entries().size(), 2U);
 }
 
 // Houdini and Maya render frames before 0. Read without the sign, they would run backwards.
@@ -53,7 +44,7 @@ TEST_F(FoundSequence, NegativeFrameNumbersAreRefused) {
     fs::rename(directory.path() / name, files.frameFile(1));
   }
   fs::rename(files.frameFile(1), directory.path() / "shot-0001.exr");
-  EXPECT_EQ(Sequence(directory.path(), {}).entries()[0].number, 1);
+  EXPECT_EQ(open().entries()[0].number, 1);
 }
 
 // OpenEXR's Python module writes doubles, and OpenImageIO what it is given.

@@ -18,8 +18,7 @@
 #include "samples/sequence/cameras.h"
 #include "samples/sequence/writer.h"
 #include "tests/error_text.h"
-#include "tests/samples/synthetic_sequence.h"
-#include "tests/samples/temporary_directory.h"
+#include "tests/samples/sequence_fixture.h"
 #include "tests/shared_data.h"
 
 namespace walr {
@@ -28,21 +27,14 @@ namespace {
 using test::Channels;
 using test::SyntheticSequence;
 
-class SequenceTest : public testing::Test {
+class SequenceTest : public test::SequenceFixture {
  protected:
-  [[nodiscard]] Sequence open(SequenceOptions options = {}) const { return {files.folder(), std::move(options)}; }
-  void expectRefused(std::initializer_list<std::string_view> parts, const SequenceOptions& options = {}) const {
-    fg::test::expectError<InputError>([&] { static_cast<void>(open(options)); }, parts);
-  }
   void editCameras(const std::function<void(nlohmann::json&)>& edit) const {
     const auto path = files.folder() / "cameras.json";
     auto document = nlohmann::json::parse(test::readText(path));
     edit(document["frames"]);
     test::writeText(path, document.dump());
   }
-
-  test::TemporaryDirectory directory;
-  SyntheticSequence files{directory.path(), 6, 4};
 };
 
 TEST_F(SequenceTest, ReadsBlenderFramesUnchanged) {

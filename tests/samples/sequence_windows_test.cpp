@@ -15,8 +15,7 @@
 #include "samples/sequence/sequence.h"
 #include "tests/error_text.h"
 #include "tests/samples/exr_files.h"
-#include "tests/samples/synthetic_sequence.h"
-#include "tests/samples/temporary_directory.h"
+#include "tests/samples/sequence_fixture.h"
 
 namespace walr {
 namespace {
@@ -42,25 +41,20 @@ constexpr int kDepth = 0;    ///< Number of Depth.Z in that list.
 constexpr int kAlbedoB = 1;  ///< Of DiffCol.B.
 constexpr int kLightB = 4;   ///< Of DiffInd.B.
 
-class SequenceWindows : public testing::Test {
+class SequenceWindows : public test::SequenceFixture {
  protected:
+  SequenceWindows() : SequenceFixture(8, 6) {}
+
   void write(const std::string& name, const Box& data, const Box& display) const {
     writeFile(name, {.parts = {ExrPart{.channels = cyclesChannels(), .data = data}}, .display = display});
   }
   void writeFile(const std::string& name, const test::ExrFileWish& wish) const {
     std::ofstream(directory.path() / name, std::ios::binary) << test::exrBytes(wish);
   }
-  [[nodiscard]] Sequence open(const SequenceOptions& options = {}) const { return {directory.path(), options}; }
-  void expectRefused(std::initializer_list<std::string_view> parts, const SequenceOptions& options = {}) const {
-    fg::test::expectError<InputError>([&] { static_cast<void>(open(options)); }, parts);
-  }
   [[nodiscard]] std::filesystem::path writeMap(const std::string& json) const {
     test::writeText(directory.path() / "map.json", json);
     return directory.path() / "map.json";
   }
-
-  test::TemporaryDirectory directory;
-  test::SyntheticSequence files{directory.path(), 8, 6};
 };
 
 /// Where a frame's camera sees a point of view space, in pixels of the frame's images.
