@@ -15,6 +15,7 @@
 namespace walr {
 namespace {
 
+using test::addColours;
 using test::Channels;
 
 class CompositeSequence : public test::SequenceFixture {};
@@ -45,14 +46,6 @@ TEST_F(CompositeSequence, AddsTheSkyOfBlenderToItsEmission) {
   const Frame frame = open(options).read(0);
   EXPECT_TRUE(open().read(0).emission.empty());
   EXPECT_EQ(frame.emission.at(1, 0, 2), frame.emission.at(0, 0, 2) + 3.0F);
-}
-
-/// One value in all pixels of a plane of three colours.
-void addColours(Channels& channels, const std::string& plane, std::array<float, 3> values) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    Image& image = channels[plane + "." + "RGB"[c]] = Image(6, 4, 1);
-    std::ranges::fill(image.values(), values[c]);
-  }
 }
 
 TEST_F(CompositeSequence, AddsEveryLightThatIsNotDiffuse) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <initializer_list>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -27,5 +30,13 @@ class SequenceFixture : public testing::Test {
   TemporaryDirectory directory;
   SyntheticSequence files;
 };
+
+/// One value in all pixels of a plane of three colours.
+inline void addColours(Channels& channels, const std::string& plane, std::array<float, 3> values) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    Image& image = channels[plane + "." + "RGB"[c]] = Image(6, 4, 1);
+    std::ranges::fill(image.values(), values[c]);
+  }
+}
 
 }  // namespace walr::test

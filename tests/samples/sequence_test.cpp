@@ -24,6 +24,7 @@
 namespace walr {
 namespace {
 
+using test::addColours;
 using test::Channels;
 using test::SyntheticSequence;
 
