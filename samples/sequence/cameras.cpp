@@ -1,5 +1,6 @@
 #include "samples/sequence/cameras.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -45,15 +46,12 @@ void readNumbers(const Json& object, const char* key, const std::string& where, 
   if (entry == object.end()) {
     throw InputError(where + " lacks \"" + key + "\" (" + std::to_string(count) + " numbers)");
   }
-  if (!entry->is_array() || entry->size() != count) {
-    throw InputError(where + ": \"" + key + "\" must be an array of " + std::to_string(count) + " numbers");
+  const bool areNumbers = entry->is_array() && std::ranges::all_of(*entry, [](const Json& e) { return e.is_number(); });
+  if (!areNumbers || entry->size() != count) {
+    throw InputError(where + ": \"" + key + "\" must be an array of " + std::to_string(count) + " numbers" +
+                     (count == 16 ? ", the matrix column after column" : ""));
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!(*entry)[i].is_number()) {
-      throw InputError(where + ": \"" + key + "\" must be an array of " + std::to_string(count) + " numbers");
-    }
-    values[i] = (*entry)[i].get<float>();
-  }
+  for (std::size_t i = 0; i < count; ++i) values[i] = (*entry)[i].get<float>();
   requireFinite(values, count, where + ": \"" + key + "\"");
 }
 

@@ -383,6 +383,12 @@ TEST_F(SequenceTest, BadCameraFilesAreNamed) {
   expectBad([](auto& frames) { frames[1].erase("prev_view"); }, {"cameras.json", "frame 1", "prev_view"});
   expectBad([](auto& frames) { frames[1]["view"].erase(3); }, {"frame 1", "view", "16"});
   expectBad([](auto& frames) { frames[1]["view"][3] = "x"; }, {"frame 1", "view", "16"});
+  const nlohmann::json row = {1.0, 0.0, 0.0, 0.0};
+  expectBad(
+      [&](auto& frames) {
+        frames[1]["view"] = {row, row, row, row};
+      },
+      {"frame 1", "view", "16 numbers", "column after column"});
   expectBad([](auto& frames) { frames[1]["projection"][3] = 1e300; }, {"frame 1", "projection", "not finite"});
   expectBad([](auto& frames) { frames[1]["jitter"] = {0.0, 1e39}; }, {"frame 1", "jitter", "not finite"});
   expectBad([](auto& frames) { frames[1]["frame"] = 4294967296; }, {"frame 4294967296", "out of range"});
