@@ -40,6 +40,9 @@ PASSES = [
     "glossy_indirect", "glossy_color", "transmission_direct", "transmission_indirect", "transmission_color",
     "volume_direct", "volume_indirect", "emit", "environment"
 ]
+# Cycles has no pass of it: materials write it.
+ROUGHNESS = "Roughness"
+LOBES = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC"}
 
 
 def fail(message):
@@ -139,7 +142,33 @@ def set_up(scene, size):
         for name in PASSES:
             ask_for_pass(layer, f"use_pass_{name}")
         layer.cycles.denoising_store_passes = False
+    add_roughness(layers)
     return [layer.name for layer in layers]
+
+
+def add_roughness(layers):
+    """Lets every material write the roughness of its glossy lobe, unless one has several or the scene has such a pass."""
+    if any(aov.name == ROUGHNESS for layer in layers for aov in layer.aovs):
+        return
+    lobes = []
+    for tree in (material.node_tree for material in bpy.data.materials if material.use_nodes):
+        used = [node for node in tree.nodes if any(socket.is_linked for socket in node.outputs)]
+        found = [node for node in used if node.type in LOBES]
+        if len(found) > 1 or any(node.type == "GROUP" for node in used):
+            print("warning: there will be no pass of roughness: a material has several glossy lobes, or a group of nodes")
+            return
+        lobes += [(tree, node.inputs["Roughness"]) for node in found]
+    for tree, roughness in lobes:
+        output = tree.nodes.new("ShaderNodeOutputAOV")
+        # Blender 4.1 renamed it.
+        setattr(output, "aov_name" if hasattr(output, "aov_name") else "name", ROUGHNESS)
+        if roughness.is_linked:
+            tree.links.new(roughness.links[0].from_socket, output.inputs["Value"])
+        else:
+            output.inputs["Value"].default_value = roughness.default_value
+    for layer in layers:
+        aov = layer.aovs.add()
+        aov.name, aov.type = ROUGHNESS, "VALUE"
 
 
 def ask_for_pass(layer, setting):

@@ -73,15 +73,16 @@ struct Frame {
   /// requested, and if the files hold none.
   Image nonDiffuse;
   /// 3 components: light that the specular lobe reflects, divided by `specularAlbedo`. It and the next three images are
-  /// empty unless requested, and if the files hold none.
+  /// empty unless requested, and if the files hold none. Frames of Cycles have no distance, and may have no roughness.
   Image specular;
   /// 1 component: distance from the surface to the first hit along the specular path, scene units; `kBackgroundDepth`
   /// if it met nothing, 0 where there was no sample.
   Image specularDistance;
-  Image roughness;       ///< 1 component: linear (glTF), 0..1.
-  Image specularAlbedo;  ///< 3 components: directional albedo of the specular lobe (walr/specular_albedo.h); 0 on sky.
-  Image objectId;        ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
-  Camera camera;         ///< Of the images.
+  Image roughness;  ///< 1 component: linear (glTF), 0..1.
+  Image
+      specularAlbedo;  ///< 3 components: directional albedo of the specular lobe, as the renderer defines it; 0 on sky.
+  Image objectId;      ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
+  Camera camera;       ///< Of the images.
   std::optional<ImagePlace> place;  ///< Absent: the images are the whole picture.
   /// Projection and jitter of the frame before; for the first frame, those of this frame.
   glm::mat4 previousProjection{1.0F};

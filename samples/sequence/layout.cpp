@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -41,6 +42,19 @@ constexpr std::array kProjectSpecular = {
     Plane{Role::SpecularDistance, "SpecularDistance", "Z"},
     Plane{Role::Roughness, "Roughness", "Y"},
     Plane{Role::SpecularAlbedo, "SpecularAlbedo", "RGB"},
+};
+// Cycles has no pass of the distance, and one of roughness only if the scene's materials write it.
+constexpr std::array kCyclesSpecular = {
+    Plane{Role::Specular, "GlossDir", "RGB"},
+    Plane{Role::Specular, "GlossInd", "RGB"},
+    Plane{Role::SpecularAlbedo, "GlossCol", "RGB"},
+    Plane{Role::Roughness, "Roughness", "X", true},
+};
+constexpr std::array kCyclesSpecular5 = {
+    Plane{Role::Specular, "Glossy Direct", "RGB"},
+    Plane{Role::Specular, "Glossy Indirect", "RGB"},
+    Plane{Role::SpecularAlbedo, "Glossy Color", "RGB"},
+    Plane{Role::Roughness, "Roughness", "X", true},
 };
 constexpr std::array kProjectAdded = {AddedLight{&Frame::nonDiffuse, "Specular", "SpecularAlbedo", false}};
 // The emission pass of Blender holds only surfaces; the sky has a pass of its own.
@@ -134,6 +148,15 @@ void addLight(const AddedLight& light, const std::map<std::string_view, Image>& 
     const float added = radiance.values()[i] * (colour != nullptr ? colour->values()[i] : 1.0F);
     // What is not finite must not hide the other lights.
     if (std::isfinite(added)) image.values()[i] += added;
+  }
+}
+
+/// Add a part of a sum, which may be empty.
+void addPart(const Image& part, Image& sum) {
+  if (sum.empty()) {
+    sum = part;
+  } else {
+    std::ranges::transform(sum.values(), part.values(), sum.values().begin(), std::plus<>());
   }
 }
 
@@ -236,7 +259,8 @@ const Layout& cyclesLayout() {
                                               .motionDepth = InputConventions::MotionDepth::StaticScene},
                              glm::vec2(1.0F, -1.0F),
                              {Role::ObjectId, "IndexOB", "X"},
-                             kCyclesAdded};
+                             kCyclesAdded,
+                             kCyclesSpecular};
   return layout;
 }
 
@@ -246,6 +270,7 @@ const Layout& cyclesLayout5() {
     renamed.planes = kCyclesPlanes5;
     renamed.objectId.name = "Object Index";
     renamed.added = kCyclesAdded5;
+    renamed.specular = kCyclesSpecular5;
     return renamed;
   }();
   return layout;
@@ -310,7 +335,11 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
     }
     RecognizedLayout recognized{layout, viewLayer.empty() ? *layers.begin() : std::string(viewLayer)};
     recognized.objectIds = hasPlane(file, recognized, layout->objectId);
-    recognized.specular = !layout->specular.empty() && hasPlane(file, recognized, layout->specular.front());
+    const auto has = [&](const Plane& plane) { return hasPlane(file, recognized, plane); };
+    if (std::ranges::all_of(layout->specular, [&](const Plane& p) { return p.role != Role::Specular || has(p); })) {
+      std::ranges::copy_if(layout->specular, std::back_inserter(recognized.specular),
+                           [&](const Plane& plane) { return !plane.optional || has(plane); });
+    }
     std::ranges::copy_if(layout->added, std::back_inserter(recognized.added),
                          [&](const AddedLight& light) { return hasPlane(file, recognized, colours(light.name)); });
     return recognized;
@@ -342,9 +371,7 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
   if (layout.objectIds) {
     planes.push_back(layout.layout->objectId);
   }
-  if (wanted.specular && layout.specular) {
-    planes.insert(planes.end(), layout.layout->specular.begin(), layout.layout->specular.end());
-  }
+  if (wanted.specular) planes.insert(planes.end(), layout.specular.begin(), layout.specular.end());
   if (wanted.rest) {
     for (const AddedLight& light : layout.added) {
       planes.push_back(colours(light.name));
@@ -378,27 +405,25 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish&
     if (isWanted(plane, wanted)) addPlane(plane);
   }
   if (layout.objectIds) addPlane(layout.layout->objectId);
-  std::map<std::string_view, Image> added;
+  // A channel can be read once, but specular light and composites may use the same planes.
+  std::map<std::string_view, Image> parts;
+  const auto readPart = [&](const Plane& plane) {
+    if (plane.name.empty() || parts.contains(plane.name)) return;
+    addTargets(targets, layout, plane, parts[plane.name], place, valueOutside(plane.role));
+  };
   if (wanted.rest) {
     for (const AddedLight& light : layout.added) {
-      for (const std::string_view name : {light.name, light.colour}) {
-        if (name.empty() || added.contains(name)) continue;
-        addTargets(targets, layout, colours(name), added[name], place, 0.0F);
-      }
+      for (const std::string_view name : {light.name, light.colour}) readPart(colours(name));
     }
   }
-  const std::span<const Plane> specular =
-      wanted.specular && layout.specular ? layout.layout->specular : std::span<const Plane>();
-  for (const Plane& plane : specular) {
-    if (!added.contains(plane.name)) addPlane(plane);  // A channel can be read once.
-  }
+  if (wanted.specular) std::ranges::for_each(layout.specular, readPart);
   file.read(targets, place);
   findNonFinite(file.path(), targets, false, frame.nonFinite);
-  for (const Plane& plane : specular) {
-    if (added.contains(plane.name)) imageOf(frame, plane.role) = added.at(plane.name);
+  if (wanted.specular) {
+    for (const Plane& plane : layout.specular) addPart(parts.at(plane.name), imageOf(frame, plane.role));
   }
   if (wanted.rest) {
-    for (const AddedLight& light : layout.added) addLight(light, added, frame.*light.image);
+    for (const AddedLight& light : layout.added) addLight(light, parts, frame.*light.image);
   }
 }
 
@@ -423,14 +448,21 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, const L
   const std::string halfName = std::string(half.name) + "A";
   half.name = halfName;
   if (readsIndirect && hasPlane(file, layout, half)) addPlane(half, reference.indirectHalf);
-  if (wanted.specular && layout.specular) {
-    Plane specular = layout.layout->specular.front();
-    if (hasPlane(file, layout, specular)) addPlane(specular, reference.specular);
-    const std::string specularHalf = std::string(specular.name) + "A";
-    specular.name = specularHalf;
-    if (hasPlane(file, layout, specular)) addPlane(specular, reference.specularHalf);
+  const std::array sums{&reference.specular, &reference.specularHalf};
+  std::array<std::vector<Image>, sums.size()> parts;  // Of each, if the file has all of them.
+  for (std::size_t i = 0; wanted.specular && i < sums.size(); ++i) {
+    std::vector<std::string> names;
+    for (const Plane& plane : layout.specular) {
+      if (plane.role == Role::Specular) names.push_back(std::string(plane.name) + (i == 0 ? "" : "A"));
+    }
+    if (!std::ranges::all_of(names, [&](const auto& name) { return hasPlane(file, layout, colours(name)); })) continue;
+    parts.at(i).resize(names.size());
+    for (std::size_t p = 0; p < names.size(); ++p) addPlane(colours(names[p]), parts.at(i)[p]);
   }
   if (!targets.empty()) file.read(targets, place);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    for (const Image& part : parts.at(i)) addPart(part, *sums.at(i));
+  }
   findNonFinite(file.path(), std::span(targets).first(checked), true, nonFinite);
   if (divide) {
     for (Image* const light : {&reference.indirect, &reference.direct, &reference.indirectHalf}) {

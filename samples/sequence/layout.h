@@ -35,6 +35,7 @@ struct Plane {
   Role role;
   std::string_view name;
   std::string_view components;
+  bool optional = false;  ///< Of `Layout::specular`: read in all frames if the first frame has it.
 };
 
 /// Light that a composite adds as it is, if the files hold it.
@@ -68,7 +69,8 @@ struct Layout {
   Plane objectId;         ///< Optional: read in all frames if the first frame has it.
   /// Optional: read in all frames if the first frame has the light.
   std::span<const AddedLight> added = {};
-  /// Optional: specular light first, and what belongs to it. Read in all frames if the first frame has the light.
+  /// Optional: specular light, the sum of all planes of its role, and what belongs to it. Read in all frames if the
+  /// first frame has the light.
   std::span<const Plane> specular = {};
 };
 
@@ -90,7 +92,7 @@ struct RecognizedLayout {
   const Layout* layout = nullptr;
   std::string viewLayer;                       ///< Empty if the channels have no view-layer prefix.
   bool objectIds = false;                      ///< The file has `Layout::objectId`.
-  bool specular = false;                       ///< The file has the light of `Layout::specular`.
+  std::vector<Plane> specular = {};            ///< Those of `Layout::specular` to be read; none without the light.
   std::vector<AddedLight> added = {};          ///< Those of `Layout::added` that the file has.
   std::shared_ptr<const ChannelMap> map = {};  ///< Where channels are found, if a user says so; `layout` is its.
 

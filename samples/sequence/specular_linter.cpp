@@ -26,6 +26,11 @@ bool isSurface(const Frame& frame, std::size_t i) {
   return depth > 0.0F && depth < kSkyDepth;
 }
 
+/// Whether a pixel has a sample of specular light.
+bool isSampled(const Frame& frame, std::size_t i) {
+  return frame.specularDistance.empty() || frame.specularDistance.pixel(i)[0] > 0.0F;
+}
+
 /// From the camera to a pixel, view space, unit.
 glm::vec3 rayThrough(const Frame& frame, std::size_t i) {
   const glm::vec2 size(frame.depth.width(), frame.depth.height());
@@ -48,16 +53,18 @@ void SpecularLinter::add(const Frame& frame) {
   for (std::size_t i = 0; i < frame.depth.pixelCount(); ++i) {
     if (!isSurface(frame, i)) continue;
     const glm::vec3 light = colorAt(frame.specular, i);
-    const float distance = frame.specularDistance.pixel(i)[0];
-    const float roughness = frame.roughness.pixel(i)[0];
+    const float distance = frame.specularDistance.empty() ? 0.0F : frame.specularDistance.pixel(i)[0];
+    const float roughness = frame.roughness.empty() ? 0.0F : frame.roughness.pixel(i)[0];
     const glm::vec3 others(distance, roughness, 0.0F);
     notFinite_ += finite(light) && finite(colorAt(frame.specularAlbedo, i)) && finite(others) ? 0 : 1;
     negative_ += std::min({light.x, light.y, light.z}) < 0.0F ? 1 : 0;
     badDistances_ += distance < 0.0F ? 1 : 0;
     badRoughness_ += roughness < 0.0F || roughness > 1.0F ? 1 : 0;
-    if (distance > 0.0F && i % width + 1 < width) addPair(frame, i, i + 1);
-    if (distance > 0.0F && i + width < frame.depth.pixelCount()) addPair(frame, i, i + width);
-    addRoughness(frame, i);
+    if (!frame.roughness.empty() && isSampled(frame, i)) {
+      if (i % width + 1 < width) addPair(frame, i, i + 1);
+      if (i + width < frame.depth.pixelCount()) addPair(frame, i, i + width);
+    }
+    if (!frame.specularDistance.empty()) addRoughness(frame, i);
   }
 }
 
@@ -65,7 +72,7 @@ void SpecularLinter::addPair(const Frame& frame, std::size_t here, std::size_t t
   const float depth = frame.depth.pixel(here)[0];
   const glm::vec3 normal = colorAt(frame.normal, here);
   const glm::vec3 other = colorAt(frame.normal, there);
-  if (!(frame.specularDistance.pixel(there)[0] > 0.0F) || !isSurface(frame, there) ||
+  if (!isSampled(frame, there) || !isSurface(frame, there) ||
       std::abs(frame.depth.pixel(there)[0] - depth) > 0.02F * depth ||
       glm::dot(normal, other) < 0.99F * glm::length(normal) * glm::length(other) ||
       std::abs(frame.roughness.pixel(here)[0] - frame.roughness.pixel(there)[0]) > 0.02F) {

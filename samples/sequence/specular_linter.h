@@ -13,7 +13,8 @@ namespace walr {
 ///
 /// Light that was not divided by its albedo is found from pairs of pixels on one surface whose specular albedo differs
 /// (see `LintJudge::judgeAlbedo`), so only where surfaces have textures of metal or of its colour. The encoding of
-/// roughness is found on dielectrics, whose albedo depends on roughness in a known way.
+/// roughness is found on dielectrics, whose albedo depends on roughness in a known way. Frames without a distance come
+/// from Cycles, whose albedo is another one; without roughness, which changes the light, too, pairs tell nothing.
 class SpecularLinter {
  public:
   /// Add a frame; one without specular light is passed over.

@@ -48,6 +48,30 @@ class Objects(list):
         return next((o for o in self if o.name == name), None)
 
 
+class Made(list):
+    """A collection of Blender that makes its members."""
+
+    def add(self, *_):
+        self.append(types.SimpleNamespace(inputs={"Value": types.SimpleNamespace(default_value=0.0)}, outputs=[]))
+        return self[-1]
+
+    new = add
+
+
+def lobe(roughness, source=None):
+    """A node of a glossy lobe whose roughness is a number or comes from another node."""
+    socket = types.SimpleNamespace(default_value=roughness, is_linked=source is not None,
+                                   links=[types.SimpleNamespace(from_socket=source)])
+    return types.SimpleNamespace(type="BSDF_PRINCIPLED", inputs={"Roughness": socket},
+                                 outputs=[types.SimpleNamespace(is_linked=True)])
+
+
+def material(*nodes):
+    links = []
+    made = types.SimpleNamespace(new=lambda source, target: links.append((source, target)), all=links)
+    return types.SimpleNamespace(use_nodes=True, node_tree=types.SimpleNamespace(nodes=Made(nodes), links=made))
+
+
 class Refusing(types.SimpleNamespace):
     """Image settings of Blender 5, which know the format only after the kind of image."""
 
@@ -61,11 +85,11 @@ def layer(name, direct_volume):
     passes = ["combined", "z", "normal", "vector", "emit", "environment"]
     passes += [f"{light}_{part}" for light in ("diffuse", "glossy", "transmission") for part in ("direct", "indirect", "color")]
     volumes = {"use_pass_volume_direct": False, "use_pass_volume_indirect": False} if direct_volume else {}
-    return types.SimpleNamespace(name=name, use=True, **{f"use_pass_{p}": False for p in passes},
+    return types.SimpleNamespace(name=name, use=True, aovs=Made(), **{f"use_pass_{p}": False for p in passes},
                                  cycles=types.SimpleNamespace(denoising_store_passes=True, **volumes))
 
 
-def blender(layers=("ViewLayer",), moves=False, five=False, volume=True):
+def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materials=()):
     """The module bpy and its scene."""
     scene = types.SimpleNamespace(frame=0, rendered=[], cycles=types.SimpleNamespace())
     scene.frame_set = lambda frame: setattr(scene, "frame", frame)
@@ -85,6 +109,7 @@ def blender(layers=("ViewLayer",), moves=False, five=False, volume=True):
 
     bpy = types.ModuleType("bpy")
     bpy.context = types.SimpleNamespace(scene=scene, evaluated_depsgraph_get=lambda: None)
+    bpy.data = types.SimpleNamespace(materials=materials)
     bpy.ops = types.SimpleNamespace(render=types.SimpleNamespace(render=render))
     return bpy, scene
 
@@ -121,6 +146,24 @@ class ExportFrames(unittest.TestCase):
     def test_warns_of_a_pass_that_blender_has_not(self):
         bpy, _ = blender(volume=False)
         self.assertIn("no use_pass_volume_direct", self.run_script(bpy, "--frames", "1"))
+
+    def test_materials_write_their_roughness(self):
+        bpy, scene = blender(materials=[material(lobe(0.25)), material(lobe(0.0, "a texture"))])
+        self.assertNotIn("roughness", self.run_script(bpy, "--frames", "1"))
+        number, texture = (each.node_tree for each in bpy.data.materials)
+        for tree in number, texture:
+            self.assertEqual(tree.nodes[-1].name, "Roughness")
+        self.assertEqual(number.nodes[-1].inputs["Value"].default_value, 0.25)
+        self.assertEqual(texture.links.all, [("a texture", texture.nodes[-1].inputs["Value"])])
+        self.assertEqual([(aov.name, aov.type) for aov in scene.view_layers[0].aovs], [("Roughness", "VALUE")])
+        self.run_script(bpy, "--frames", "2")
+        self.assertEqual(len(number.nodes), 2)
+
+    def test_several_lobes_have_no_roughness(self):
+        bpy, scene = blender(materials=[material(lobe(0.25)), material(lobe(0.25), lobe(0.5))])
+        self.assertIn("no pass of roughness", self.run_script(bpy, "--frames", "1"))
+        self.assertEqual(scene.view_layers[0].aovs, [])
+        self.assertEqual(len(bpy.data.materials[0].node_tree.nodes), 1)
 
     def test_shows_the_remaining_time_and_the_command(self):
         bpy, scene = blender()

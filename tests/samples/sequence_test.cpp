@@ -266,7 +266,8 @@ TEST_F(SequenceTest, ReadsTheNamesOfBlender5) {
     const std::map<std::string, std::string> names{{"DiffInd", "Diffuse Indirect"}, {"DiffDir", "Diffuse Direct"},
                                                    {"DiffCol", "Diffuse Color"},    {"Emit", "Emission"},
                                                    {"GlossInd", "Glossy Indirect"}, {"GlossCol", "Glossy Color"},
-                                                   {"Env", "Environment"},          {"IndexOB", "Object Index"}};
+                                                   {"GlossDir", "Glossy Direct"},   {"Env", "Environment"},
+                                                   {"IndexOB", "Object Index"}};
     Channels renamed;
     for (auto& [channel, image] : channels) {
       const std::size_t dot = channel.find('.');
@@ -276,6 +277,7 @@ TEST_F(SequenceTest, ReadsTheNamesOfBlender5) {
     channels = std::move(renamed);
   };
   files.writeFrame(0, [&](Channels& channels) {
+    addColours(channels, "GlossDir", {0.0F, 0.5F, 0.0F});
     addColours(channels, "GlossInd", {1.0F, 2.0F, 3.0F});
     addColours(channels, "GlossCol", {2.0F, 2.0F, 2.0F});
     addColours(channels, "Env", {0.5F, 0.5F, 0.5F});
@@ -285,6 +287,7 @@ TEST_F(SequenceTest, ReadsTheNamesOfBlender5) {
   files.writeReference(0, rename);
   SequenceOptions options;
   options.light = kWholePicture;
+  options.light.specular = true;
   const Sequence sequence = open(options);
   EXPECT_EQ(sequence.layout().layout, &cyclesLayout5());
   EXPECT_EQ(sequence.layout().plane(Light::Direct), "ViewLayer.Diffuse Direct");
@@ -292,7 +295,10 @@ TEST_F(SequenceTest, ReadsTheNamesOfBlender5) {
   EXPECT_EQ(frame.albedo.at(2, 2, 1), 0.8F);
   EXPECT_EQ(frame.direct.at(2, 2, 1), 0.25F);
   EXPECT_EQ(frame.emission.at(2, 2, 1), 0.5F);
-  EXPECT_EQ(frame.nonDiffuse.at(2, 2, 1), 4.0F);
+  EXPECT_EQ(frame.nonDiffuse.at(2, 2, 1), 5.0F);
+  ASSERT_FALSE(frame.specular.empty());
+  EXPECT_EQ(frame.specular.at(2, 2, 1), 2.5F);
+  EXPECT_EQ(frame.specularAlbedo.at(2, 2, 1), 2.0F);
   EXPECT_FALSE(frame.objectId.empty());
   EXPECT_EQ(frame.reference->direct.at(2, 2, 0), 0.25F);
 }

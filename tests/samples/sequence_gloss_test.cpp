@@ -1,0 +1,116 @@
+// Glossy light of Cycles as specular light: without a distance, and with roughness if the files hold it.
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "samples/errors.h"
+#include "samples/sequence/sequence.h"
+#include "samples/sequence/specular_linter.h"
+#include "tests/error_text.h"
+#include "tests/samples/sequence_fixture.h"
+
+namespace walr {
+namespace {
+
+using test::addColours;
+using test::Channels;
+
+void addGloss(Channels& channels) {
+  addColours(channels, "GlossDir", {1.0F, 2.0F, 3.0F});
+  addColours(channels, "GlossInd", {0.5F, 0.0F, 1.0F});
+  addColours(channels, "GlossCol", {0.5F, 0.25F, 0.0F});
+}
+
+class GlossSequence : public test::SequenceFixture {
+ protected:
+  GlossSequence() {
+    files.write(0, 0);
+    options.light.specular = true;
+  }
+
+  SequenceOptions options;
+};
+
+// Cycles has divided both lights by the colour already: its manual says that passes of light leave it out.
+TEST_F(GlossSequence, IsTheSumOfBothLightsWithTheirColourAsAlbedo) {
+  files.writeFrame(0, addGloss);
+  files.writeReference(0, [](Channels& channels) {
+    addColours(channels, "GlossDir", {8.0F, 0.0F, 0.0F});
+    addColours(channels, "GlossInd", {16.0F, 0.0F, 0.0F});
+    addColours(channels, "GlossDirA", {4.0F, 0.0F, 0.0F});
+  });
+  for (const bool rest : {false, true}) {
+    options.light.rest = options.light.direct = rest;
+    const Frame frame = open(options).read(0);
+    ASSERT_FALSE(frame.specular.empty() || frame.reference->specular.empty());
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(frame.specular.at(2, 2, c), (std::vector{1.5F, 2.0F, 4.0F}[static_cast<std::size_t>(c)]));
+      EXPECT_EQ(frame.specularAlbedo.at(2, 2, c), (std::vector{0.5F, 0.25F, 0.0F}[static_cast<std::size_t>(c)]));
+    }
+    EXPECT_TRUE(frame.specularDistance.empty());
+    EXPECT_TRUE(frame.roughness.empty());
+    EXPECT_EQ(frame.reference->specular.at(2, 2, 0), 24.0F);
+    EXPECT_TRUE(frame.reference->specularHalf.empty());  // One of its two planes is missing.
+    EXPECT_EQ(frame.nonDiffuse.empty(), !rest);
+    if (rest) {
+      EXPECT_EQ(frame.nonDiffuse.at(2, 2, 0), 1.5F * 0.5F);
+    }
+  }
+  EXPECT_TRUE(open().read(0).specular.empty());
+}
+
+TEST_F(GlossSequence, HasTheRoughnessThatMaterialsWrite) {
+  files.write(0, 1);
+  const auto withRoughness = [](Channels& channels) {
+    addGloss(channels);
+    channels["Roughness.X"] = Image(6, 4, 1);
+    channels["Roughness.X"].at(2, 2, 0) = 0.25F;
+  };
+  files.writeFrame(0, withRoughness);
+  files.writeFrame(1, addGloss);
+  expectRefused({"noisy_0001.exr", "missing channel Roughness.X"}, options);
+  files.writeFrame(1, withRoughness);
+  EXPECT_EQ(open(options).read(1).roughness.at(2, 2, 0), 0.25F);
+}
+
+TEST_F(GlossSequence, IsReadOnlyIfBothLightsAreThere) {
+  files.writeFrame(0, [](Channels& channels) {
+    addGloss(channels);
+    channels.erase("GlossCol.G");
+  });
+  expectRefused({"noisy_0000.exr", "missing channel GlossCol.G"}, options);
+  files.writeFrame(0, [](Channels& channels) { addColours(channels, "GlossDir", {1.0F, 1.0F, 1.0F}); });
+  const Frame frame = open(options).read(0);
+  EXPECT_TRUE(frame.specular.empty());
+  EXPECT_TRUE(frame.specularAlbedo.empty());
+}
+
+// A checker in light and albedo would look like light that was not divided, if no roughness could explain it.
+TEST_F(GlossSequence, LintedWithoutDistanceAndRoughness) {
+  Frame frame = test::projectFrame(0, 160, 90);
+  frame.specular = frame.specularAlbedo = Image(160, 90, 3);
+  for (std::size_t i = 0; i < frame.specular.values().size(); ++i) {
+    frame.specular.values()[i] = frame.specularAlbedo.values()[i] = i / 3 % 2 == 0 ? 0.25F : 1.0F;
+  }
+  const auto found = [](const Frame& linted) {
+    SpecularLinter linter;
+    linter.add(linted);
+    std::vector<std::string> names;
+    for (const LintFinding& finding : linter.findings()) names.emplace_back(finding.name);
+    return names;
+  };
+  EXPECT_EQ(found(frame), std::vector<std::string>{});
+  frame.roughness = Image(160, 90, 1);
+  std::ranges::fill(frame.roughness.values(), 0.5F);
+  EXPECT_EQ(found(frame), std::vector<std::string>{"specular-albedo-in-light"});
+  frame.roughness = {};
+  frame.specular.at(9, 40, 1) = std::numeric_limits<float>::quiet_NaN();
+  frame.specular.at(9, 41, 1) = -1.0F;
+  EXPECT_EQ(found(frame), (std::vector<std::string>{"specular-not-finite", "specular-negative"}));
+}
+
+}  // namespace
+}  // namespace walr
