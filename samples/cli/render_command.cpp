@@ -63,10 +63,7 @@ void renderFrames(RenderArguments& arguments) {
   options.height = extent.height;
 
   const std::unique_ptr<GpuDevice> gpu = tracingDevice(arguments);
-  checkResampledFrames(options.resampledFrames, options.light, gpu != nullptr);
-  if (options.specular && options.resampledFrames > 0) {
-    throw UsageError("--specular and --resampled-frames: only diffuse light can be resampled; leave out one of them");
-  }
+  checkResampledFrames(options.resampledFrames, options.light, options.specular, gpu != nullptr);
   if (gpu) {
     options.otherTracer = [&gpu](const render::World& world) {
       return std::make_unique<gpu_render::FilmTracer>(*gpu, world);

@@ -13,10 +13,13 @@ void addResampledFrames(CLI::App& command, std::uint32_t& frames) {
       ->capture_default_str();
 }
 
-void checkResampledFrames(std::uint32_t frames, const LightPattern& light, bool onDevice) {
+void checkResampledFrames(std::uint32_t frames, const LightPattern& light, bool specular, bool onDevice) {
   if (frames == 0) return;
   if (!light.everyPixel()) {
     throw UsageError("--light-rate and --resampled-frames: only light at every pixel can be resampled");
+  }
+  if (specular) {
+    throw UsageError("--specular and --resampled-frames: only diffuse light can be resampled; leave out one of them");
   }
   if (onDevice) throw UsageError("--resampled-frames: the path tracer on the GPU does not resample: use --tracer cpu");
 }

@@ -207,8 +207,9 @@ void GpuScene::bind(TracePipeline::Bindings& bindings) const {
 
 void GpuScene::prepare(Precision precision) {
   auto& pipeline = pipelines_.at(static_cast<std::size_t>(precision));
-  const fg::Shader& single = specular_ ? shaders::traceSpecular : shaders::traceFloat;
-  const fg::Shader& shader = precision == Precision::Half ? shaders::traceHalf : single;
+  const fg::Shader& half = specular_ ? shaders::traceSpecularHalf : shaders::traceHalf;
+  const fg::Shader& single = specular_ ? shaders::traceSpecularFloat : shaders::traceFloat;
+  const fg::Shader& shader = precision == Precision::Half ? half : single;
   if (!pipeline) pipeline = std::make_unique<TracePipeline>(device_, functions_, shader);
 }
 

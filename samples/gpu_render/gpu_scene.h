@@ -50,7 +50,7 @@ class GpuScene {
   [[nodiscard]] const TracePipeline& pipeline(Precision precision) const;
 
   [[nodiscard]] const fg::vk::DeviceContext& device() const { return device_; }
-  /// Whether frames in float hold specular light.
+  /// Whether frames hold specular light.
   [[nodiscard]] bool specular() const { return specular_; }
   /// Numbers of array elements that change from frame to frame.
   [[nodiscard]] std::size_t instances() const { return instances_; }

@@ -52,8 +52,7 @@ void addTrace(fg::Graph& graph, const GpuScene& scene, Precision precision, cons
                                                 {"outObjectId", &TracedTextures::objectId},
                                                 {"outSpecular", &TracedTextures::specular},
                                                 {"outSpecularAlbedo", &TracedTextures::specularAlbedo}}};
-  const bool specular = precision == Precision::Float && scene.specular();
-  const std::span<const Output> outputs = std::span(kAll).first(specular ? 10 : 8);
+  const std::span<const Output> outputs = std::span(kAll).first(scene.specular() ? 10 : 8);
   const fg::Extent extent = graph.textureDesc(textures.depth).extent;
   fg::PassBuilder pass = graph.callback(
       kTracePass, [&scene, precision, inputs, textures, extent, outputs](const fg::RecordContext& context) {

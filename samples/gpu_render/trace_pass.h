@@ -38,7 +38,7 @@ struct TracedTextures {
   fg::Texture motion;
   fg::Texture depth;                ///< R32F: linear view depth; `kBackgroundDepth` on sky.
   fg::Texture objectId;             ///< R32UI: index of the instance; 0xffffffff on sky.
-  fg::Texture specular = {};        ///< See shaders/trace.comp; only with `Scene::specular` and `Precision::Float`.
+  fg::Texture specular = {};        ///< See shaders/trace.comp; only with `Scene::specular`.
   fg::Texture specularAlbedo = {};  ///< The same.
 
   /// The format of the textures without one of their own.

@@ -10,9 +10,12 @@ HostFrame packHostFrame(Frame frame) {
   if (!frame.light.everyPixel()) packed.noisyLight = packRgba16(frame.indirect);
   packed.direct = packRgba16(frame.direct);
   packed.emission = packRgba16(frame.emission);
+  packed.specular = packRgba16(frame.specular);
+  packed.specularAlbedo = packRgba16(frame.specularAlbedo);
   if (frame.reference) {
     packed.referenceDirect = packRgba16(frame.reference->direct);
     packed.referenceIndirect = packRgba16(frame.reference->indirect);
+    packed.referenceSpecular = packRgba16(frame.reference->specular);
   }
   packed.constants = frameConstantsOf(frame, glm::vec2(1.0F));
   packed.inputs = packFrame(std::move(frame));

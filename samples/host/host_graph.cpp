@@ -50,7 +50,7 @@ fg::Texture findTexture(const fg::GraphDesc& graph, const std::string& name) {
   throw UsageError("the frame has no texture '" + name + "'; it has " + known);
 }
 
-void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, const LightPattern& light,
+void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, const LightPattern& light, bool specular,
                    const fg::vk::DeviceContext& device) {
   fg::Graph& graph = host.graph;
   std::vector<UploadedPicture*> uploads;
@@ -68,6 +68,11 @@ void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, con
   picture(host.objectId, "object id", VK_FORMAT_R32_UINT);
   picture(host.direct, "direct light", kColourFormat);
   picture(host.emission, "emission", kColourFormat);
+  if (specular) {
+    picture(host.specular.emplace(), "specular light", kColourFormat);
+    picture(host.specularAlbedo.emplace(), "specular albedo", kColourFormat);
+    if (view.needsReference()) picture(host.referenceSpecular.emplace(), "reference specular light", kColourFormat);
+  }
   if (view.needsReference()) {
     picture(host.referenceIndirect.emplace(), "reference", kColourFormat);
     picture(host.referenceDirect.emplace(), "reference direct light", kColourFormat);
@@ -97,6 +102,10 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
       .motion = color("motion"),
       .depth = graph.texture("depth", {.format = kDepthFormat, .extent = extent}),
       .objectId = graph.texture("object id", {.format = VK_FORMAT_R32_UINT, .extent = extent})};
+  if (scene.specular()) {
+    traced.specular = color("specular light");
+    traced.specularAlbedo = color("specular albedo");
+  }
   host.trace = gpu_render::declareTraceInputs(graph, scene);
   gpu_render::addTrace(graph, scene, gpu_render::Precision::Half, *host.trace, traced);
   host.direct.texture = traced.direct;
@@ -107,9 +116,23 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
   host.motion.texture = traced.motion;
   host.depth.texture = traced.depth;
   host.objectId.texture = traced.objectId;
+  if (scene.specular()) {
+    host.specular.emplace().texture = traced.specular;
+    host.specularAlbedo.emplace().texture = traced.specularAlbedo;
+  }
   const fg::BufferDesc row{std::uint64_t{extent.height} * sizeof(std::uint32_t)};
   host.rays = addRayCount(graph, traced.indirect, graph.import("rays", row, fg::vk::kOverwritable));
   graph.exported(*host.rays, fg::vk::kReadable);
+}
+
+/// What composites take beside the indirect light.
+Shading shadingOf(const HostGraph& host) {
+  Shading shading{host.direct.texture, host.albedo.texture, host.emission.texture};
+  if (host.specular) {
+    shading.specular = host.specular->texture;
+    shading.specularAlbedo = host.specularAlbedo->texture;
+  }
+  return shading;
 }
 
 /// The lit image of another light source than the denoiser. The composite of the denoised light exists in any case.
@@ -123,8 +146,10 @@ fg::Texture litBy(HostGraph& host, HostView::Kind source) {
       host.graph.texture(noisy ? "lit noisy" : "lit reference", host.graph.textureDesc(host.composite));
   const UploadedPicture& traced = host.noisyLight ? *host.noisyLight : host.lighting;
   const fg::Texture indirect = noisy ? traced.texture : host.referenceIndirect->texture;
-  const fg::Texture direct = noisy ? host.direct.texture : host.referenceDirect->texture;
-  return addComposite(host.graph, name, indirect, {direct, host.albedo.texture, host.emission.texture}, output);
+  Shading shading = shadingOf(host);
+  if (!noisy) shading.direct = host.referenceDirect->texture;
+  if (!noisy && shading.specular) shading.specular = host.referenceSpecular->texture;
+  return addComposite(host.graph, name, indirect, shading, output);
 }
 
 /// The lit image of the method that is compared, which gets the same inputs.
@@ -142,8 +167,7 @@ fg::Texture litByCompared(HostGraph& host, Denoiser& compared, DenoiserInputs in
   Inspection nothing;
   const fg::Texture denoised =
       compared.add(StageGraph(graph, nothing, {.prefix = kComparedPrefix}), inputs, texture("denoised"));
-  return addComposite(graph, std::string(kComparedPrefix) + "composite", denoised,
-                      {host.direct.texture, host.albedo.texture, host.emission.texture}, texture("lit"));
+  return addComposite(graph, std::string(kComparedPrefix) + "composite", denoised, shadingOf(host), texture("lit"));
 }
 
 void addView(HostGraph& host, const HostView& view, const DenoiserInputs& inputs) {
@@ -170,13 +194,18 @@ void addView(HostGraph& host, const HostView& view, const DenoiserInputs& inputs
 HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
                            const HostView& view, const HostTargets& targets, const LightPattern& light,
                            const std::function<void(fg::Graph&, fg::Texture display)>& present,
-                           const gpu_render::GpuScene* scene) {
+                           const gpu_render::GpuScene* scene, bool specular) {
+  if (specular && !light.everyPixel()) {
+    throw UsageError(
+        "--specular and --light-rate: specular light has samples where indirect light has them, so that the picture "
+        "would have holes; leave out one of them");
+  }
   HostGraph host;
   fg::Graph& graph = host.graph;
   if (scene != nullptr) {
     declareTracedInputs(host, extent, view, light, *scene);
   } else {
-    declareInputs(host, extent, view, light, device);
+    declareInputs(host, extent, view, light, specular, device);
   }
   host.frameConstants = graph.upload("frame constants", sizeof(FrameConstants));
 
@@ -195,9 +224,8 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
     graph.exported(*host.lint, fg::vk::kReadable);
   }
   host.denoised = method.add(graph, inputs, declareTarget(graph, "denoised", colour, targets.denoised));
-  host.composite =
-      addComposite(graph, "composite", host.denoised, {host.direct.texture, host.albedo.texture, host.emission.texture},
-                   declareTarget(graph, "lit", colour, targets.composite));
+  host.composite = addComposite(graph, "composite", host.denoised, shadingOf(host),
+                                declareTarget(graph, "lit", colour, targets.composite));
   host.display = declareTarget(
       graph, "display", {.format = kDisplayFormat, .extent = targets.displayExtent.value_or(extent)}, targets.display);
   addView(host, view, inputs);

@@ -56,8 +56,11 @@ struct HostGraph {
   UploadedPicture objectId;
   UploadedPicture direct;
   UploadedPicture emission;
+  std::optional<UploadedPicture> specular;        ///< Light of the specular lobe, divided by `specularAlbedo`.
+  std::optional<UploadedPicture> specularAlbedo;  ///< Absent without `specular`.
   std::optional<UploadedPicture> referenceIndirect;
   std::optional<UploadedPicture> referenceDirect;
+  std::optional<UploadedPicture> referenceSpecular;
   std::optional<fg::Buffer> lint;  ///< With `HostView::lint`: what `InputLinter` reads, as `fg::vk::kReadable`.
   fg::Buffer frameConstants;
   fg::Buffer viewConstants;
@@ -87,14 +90,15 @@ struct HostTargets {
 ///         empty
 /// @param scene    what the device traces, must outlive the graph; null: the processor traces, and its pictures are
 ///         uploaded
+/// @param specular  whether frames hold specular light, as `scene` does
 /// @throws std::invalid_argument naming a setting of the method that is out of range
 /// @throws also naming a method or setting that does not take sparse light
 /// @throws UsageError if the device traces and the view needs a reference; or if the graph lacks the texture to view;
-/// the message lists the graph's textures
+/// the message lists the graph's textures; or if specular light is sparse
 HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method, fg::Extent extent,
                            const HostView& view, const HostTargets& targets, const LightPattern& light = {},
                            const std::function<void(fg::Graph&, fg::Texture display)>& present = {},
-                           const gpu_render::GpuScene* scene = nullptr);
+                           const gpu_render::GpuScene* scene = nullptr, bool specular = false);
 
 /// Names of the textures that can be viewed.
 std::vector<std::string> viewableTextures(const fg::GraphDesc& graph);

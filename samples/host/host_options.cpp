@@ -114,6 +114,16 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
           {"first-hit", render::GBufferMode::FirstHit}, {"material", render::GBufferMode::Material}}))
       ->type_name("")
       ->default_str("first-hit");
+  program
+      .add_flag("--specular", tracer.specular,
+                "Materials reflect with the specular lobe of glTF, too; its light is shown as it was traced")
+      ->excludes("--gbuffer");
+  program
+      .add_flag_callback(
+          "--replace-mirrors", [&tracer] { tracer.gbuffer = render::GBufferMode::BehindMirrors; },
+          "Metals of a linear roughness below 0.15 are mirrors: their pixels hold the virtual image of the surface "
+          "that they reflect, whose light is denoised; the mirrors are taken to stand still")
+      ->needs("--specular");
   program.add_option("--threads", tracer.threads, "Threads for --tracer cpu; 0: one per core")->capture_default_str();
   addTracerOption(program, options.tracerChoice);
 }

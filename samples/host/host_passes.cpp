@@ -74,12 +74,15 @@ fg::Buffer addRayCount(fg::Graph& graph, fg::Texture lighting, fg::Buffer rays) 
 
 fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture indirect, const Shading& shading,
                          fg::Texture output) {
-  fg::PassBuilder pass = graph.compute(name, shaders::composite);
+  fg::PassBuilder pass = graph.compute(name, shading.specular ? shaders::compositeSpecular : shaders::composite);
   pass.sample("indirect", indirect)
       .sample("direct", shading.direct)
       .sample("albedo", shading.albedo)
       .sample("emission", shading.emission)
       .dispatch(graph.textureDesc(indirect).extent);
+  if (shading.specular) {
+    pass.sample("specular", *shading.specular).sample("specularAlbedo", *shading.specularAlbedo);
+  }
   return pass.store("outLit", output);
 }
 

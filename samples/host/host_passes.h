@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,11 @@ struct Shading {
   fg::Texture direct;
   fg::Texture albedo;
   fg::Texture emission;
+  std::optional<fg::Texture> specular = {};        ///< Light of the specular lobe, divided by `specularAlbedo`.
+  std::optional<fg::Texture> specularAlbedo = {};  ///< Absent without `specular`.
 };
 
-/// Write the lit image, albedo * (direct + indirect) + emission, to `output` (RGBA16F).
+/// Write the lit image, albedo * (direct + indirect) + emission + specular albedo * specular, to `output` (RGBA16F).
 fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture indirect, const Shading& shading,
                          fg::Texture output);
 

@@ -40,18 +40,19 @@ ShownPicture::ShownPicture(const GpuDevice& device, fg::Extent extent)
 }
 
 LiveFrame::LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight,
-                     const LightPattern& light, const gpu_render::GpuScene* scene)
+                     const LightPattern& light, const gpu_render::GpuScene* scene, bool specular)
     : device_(device),
       picture_(picture),
       framesInFlight_(framesInFlight),
       light_(light),
       scene_(scene),
+      specular_(specular),
       extent_(picture.desc().extent),
       shown_(extent_) {}
 
 HostGraph LiveFrame::declareHost(Denoiser& method, const HostView& view) const {
   return declareHostGraph(device_.device().context(), method, extent_, view, shownTarget(picture_.desc().extent),
-                          light_, {}, scene_);
+                          light_, {}, scene_, specular_);
 }
 
 bool LiveFrame::update(Denoiser& method, const HostView& view) {

@@ -44,11 +44,11 @@ class LiveFrame {
   enum class Start { FromHistory, Anew };
 
   /// @param device, picture  must outlive this
-  /// @param scene            see `declareHostGraph`; must outlive this
+  /// @param scene, specular  see `declareHostGraph`; the scene must outlive this
   /// @param framesInFlight   frames recorded with the same slot must be this many frames apart
   /// @param light            pixels of the frames that have a sample of light
   LiveFrame(const GpuDevice& device, const ShownPicture& picture, std::uint32_t framesInFlight,
-            const LightPattern& light = {}, const gpu_render::GpuScene* scene = nullptr);
+            const LightPattern& light = {}, const gpu_render::GpuScene* scene = nullptr, bool specular = false);
   /// The device must have finished all frames.
   ~LiveFrame() = default;
   LiveFrame(const LiveFrame&) = delete;
@@ -132,6 +132,7 @@ class LiveFrame {
   std::uint32_t framesInFlight_;
   LightPattern light_;
   const gpu_render::GpuScene* scene_;
+  bool specular_;
   fg::Extent extent_;
   fg::Extent shown_;
   std::uint64_t frames_ = 0;  // Number of recorded frames, of all graphs.

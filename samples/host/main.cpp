@@ -89,6 +89,7 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   rendering.viewConstants = viewConstantsOf(extent, stops);
   rendering.readComposite = options.exr;
   rendering.scene = tracer.gpuScene();
+  rendering.specular = tracer.specular();
   Renderer renderer = asCommandLine([&] { return Renderer(gpu, method, extent, rendering); });
   if (!options.output.empty()) prepareOutputDirectory(options.output);
   Tracer::Request request;
@@ -148,7 +149,8 @@ void run(HostOptions& options) {
     options.gpu = withWindows(options.gpu);
   }
 #endif
-  checkResampledFrames(options.resampledFrames, options.tracer.light, options.tracerChoice == TracerChoice::Gpu);
+  checkResampledFrames(options.resampledFrames, options.tracer.light, options.tracer.specular,
+                       options.tracerChoice == TracerChoice::Gpu);
   std::string because;
   if (const std::string option = needsProcessor(options);
       !option.empty() && options.tracerChoice == TracerChoice::Auto) {

@@ -24,7 +24,7 @@ Renderer::Renderer(const GpuDevice& gpu, Denoiser& method, fg::Extent extent, co
     : extent_(extent),
       options_(options),
       host_(declareHostGraph(gpu.device().context(), method, extent, options.view, targetsOf(options), options.light,
-                             {}, options.scene)),
+                             {}, options.scene, options.specular)),
       graph_(gpu, host_.graph, options.framesInFlight),
       display_(graph_.readBack(host_.display)) {
   if (options.readComposite) composite_ = graph_.readBack(host_.composite);
@@ -93,9 +93,14 @@ void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostF
   upload(graph.objectId, std::span(inputs.objectId));
   upload(graph.direct, std::span(frame.direct));
   upload(graph.emission, std::span(frame.emission));
+  if (graph.specular) {
+    upload(*graph.specular, std::span(frame.specular));
+    upload(*graph.specularAlbedo, std::span(frame.specularAlbedo));
+  }
   if (graph.referenceIndirect) {
     upload(*graph.referenceIndirect, std::span(frame.referenceIndirect));
     upload(*graph.referenceDirect, std::span(frame.referenceDirect));
+    if (graph.referenceSpecular) upload(*graph.referenceSpecular, std::span(frame.referenceSpecular));
   }
 }
 

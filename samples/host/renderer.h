@@ -36,6 +36,7 @@ class Renderer {
     bool readComposite = false;
     bool readDenoised = false;
     const gpu_render::GpuScene* scene = nullptr;  ///< See `declareHostGraph`; must outlive the renderer.
+    bool specular = false;                        ///< See `declareHostGraph`.
   };
 
   /// @param gpu     must outlive the renderer

@@ -37,9 +37,10 @@ Tracer::Content::Content(const Options& options, bool onDevice)
     : scene(render::loadScene(options.scene, options.sky)),
       camera(render::findCamera(scene, options.camera)),
       world(scene, onDevice ? render::RayCasting::None : render::RayCasting::Embree) {
-  if (onDevice && options.gbuffer != render::GBufferMode::FirstHit) {
+  if (onDevice && options.gbuffer == render::GBufferMode::Material) {
     throw render::SceneError("--gbuffer material: the path tracer on the GPU has only first-hit; use --tracer cpu");
   }
+  scene.specular = options.specular;
 }
 
 void Tracer::Content::prepare(const GpuDevice& gpu) {
@@ -106,7 +107,11 @@ float Tracer::exposureOf(Content& content, double animationFrame) const {
   const Frame frame = render::toFrame(
       render::renderFilm(world, view, {.samples = kSamples, .bounces = options_.bounces, .threads = options_.threads}),
       view, 0);
-  return autoExposure(composite(frame.indirect, frame.direct, frame.albedo, frame.emission)).value_or(0.0F);
+  Image lit = composite(frame.indirect, frame.direct, frame.albedo, frame.emission);
+  for (std::size_t i = 0; i < frame.specular.values().size(); ++i) {
+    lit.values()[i] += frame.specular.values()[i] * frame.specularAlbedo.values()[i];
+  }
+  return autoExposure(lit).value_or(0.0F);
 }
 
 render::View Tracer::viewOf(const Request& request) const {
@@ -129,6 +134,7 @@ glm::ivec2 Tracer::lightOffset(const Request& request) const {
 
 std::string Tracer::whyNotResampled() const {
   if (content_->device) return "the path tracer on the GPU does not resample: use --tracer cpu";
+  if (options_.specular) return "only diffuse light can be resampled: leave out --specular";
   if (!options_.light.everyPixel()) return "only light at every pixel can be resampled: use --light-rate 1";
   return {};
 }
@@ -229,7 +235,8 @@ Reference Tracer::traceReference(const Request& request, const render::View& vie
   const bool same =
       reference_.steps > 0 && reference_.animationFrame == request.animationFrame && sameCamera(reference_.view, view);
   if (!same) {
-    reference_ = {request.animationFrame, view, std::vector<glm::dvec3>(pixels), std::vector<glm::dvec3>(pixels), 0};
+    reference_ = {request.animationFrame, view, std::vector<glm::dvec3>(pixels), std::vector<glm::dvec3>(pixels),
+                  std::vector<glm::dvec3>(options_.specular ? pixels : 0)};
   }
   render::SamplingSettings sampling;
   sampling.samples = options_.referenceSamples;
@@ -241,11 +248,14 @@ Reference Tracer::traceReference(const Request& request, const render::View& vie
   sampling.threads = options_.threads;
   render::Film film = renderFilm(view, sampling);
   ++reference_.steps;
+  const auto accumulate = [&](glm::dvec3& sum, glm::vec3& light) {
+    sum += glm::dvec3(light);
+    light = glm::vec3(sum / static_cast<double>(reference_.steps));
+  };
   for (std::size_t i = 0; i < pixels; ++i) {
-    reference_.indirect[i] += glm::dvec3(film.indirect[i]);
-    reference_.direct[i] += glm::dvec3(film.direct[i]);
-    film.indirect[i] = glm::vec3(reference_.indirect[i] / static_cast<double>(reference_.steps));
-    film.direct[i] = glm::vec3(reference_.direct[i] / static_cast<double>(reference_.steps));
+    accumulate(reference_.indirect[i], film.indirect[i]);
+    accumulate(reference_.direct[i], film.direct[i]);
+    if (options_.specular) accumulate(reference_.specular[i], film.specular[i].light);
   }
   return render::toReference(film);
 }

@@ -44,6 +44,7 @@ class Tracer {
     /// Add the direct light to the indirect light, so that both are denoised. The direct light is then 0. Otherwise the
     /// direct light is shown as it was traced: one sample per pixel of a lamp or of the sky is noisy.
     bool denoiseDirect = true;
+    bool specular = false;  ///< See `render::Scene::specular`; frames and references then hold specular light.
     unsigned int threads = 0;
   };
 
@@ -93,6 +94,8 @@ class Tracer {
 
   [[nodiscard]] fg::Extent extent() const { return options_.extent; }
   [[nodiscard]] bool denoisesDirect() const { return options_.denoiseDirect; }
+  /// Whether frames hold specular light.
+  [[nodiscard]] bool specular() const { return options_.specular; }
   /// See `render::Scene::warnings`.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return content_->scene.warnings; }
   [[nodiscard]] const LightPattern& light() const { return options_.light; }
@@ -128,6 +131,7 @@ class Tracer {
     render::View view;
     std::vector<glm::dvec3> indirect;
     std::vector<glm::dvec3> direct;
+    std::vector<glm::dvec3> specular;  ///< Empty without specular light.
     std::uint32_t steps = 0;
   };
 

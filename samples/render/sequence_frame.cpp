@@ -19,6 +19,10 @@ walr::Image toImage(const Film& film, const std::vector<glm::vec3>& values) {
   return toImage(film, 3, [&](std::size_t i, int c) { return values[i][c]; });
 }
 
+walr::Image toImage(const Film& film, const std::vector<SpecularPixel>& values) {
+  return toImage(film, 3, [&](std::size_t i, int c) { return values[i].light[c]; });
+}
+
 walr::Image toImage(const Film& film, glm::vec3 GBufferPixel::*member) {
   return toImage(film, 3, [&](std::size_t i, int c) { return (film.gbuffer[i].*member)[c]; });
 }
@@ -50,7 +54,7 @@ walr::Frame toFrame(const Film& film, const View& view, int number) {
   frame.motion = toImage(film, &GBufferPixel::motion);
   frame.emission = toImage(film, &GBufferPixel::emission);
   if (!film.specular.empty()) {
-    frame.specular = toImage(film, 3, [&](std::size_t i, int c) { return film.specular[i].light[c]; });
+    frame.specular = toImage(film, film.specular);
     frame.specularDistance =
         toImage(film, 1, [&](std::size_t i, int /*component*/) { return film.specular[i].distance; });
     frame.roughness = toImage(film, 1, [&](std::size_t i, int /*component*/) { return film.specular[i].roughness; });
@@ -64,7 +68,9 @@ walr::Frame toFrame(const Film& film, const View& view, int number) {
 }
 
 walr::Reference toReference(const Film& film) {
-  return {toImage(film, film.indirect), toImage(film, film.direct)};
+  walr::Reference reference{toImage(film, film.indirect), toImage(film, film.direct)};
+  if (!film.specular.empty()) reference.specular = toImage(film, film.specular);
+  return reference;
 }
 
 }  // namespace walr::render

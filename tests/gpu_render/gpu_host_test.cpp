@@ -114,15 +114,20 @@ TEST_F(GpuHost, ResizesAndRestsInThreeHundredMovingFramesWithoutAMessage) {
 
 // The same random numbers lead to the same frames, but for roundings.
 TEST_F(GpuHost, ShowsWhatTheTracerOnTheProcessorShows) {
-  for (const bool denoiseDirect : {false, true}) {
-    Tracer::Options options = tracing("turntable.gltf");
-    options.denoiseDirect = denoiseDirect;
+  std::vector<Tracer::Options> cases(2, tracing("turntable.gltf"));
+  cases[0].denoiseDirect = false;
+  cases.push_back(tracing("gloss.gltf"));
+  cases[2].camera = "mirror";
+  cases[2].specular = true;
+  cases[2].gbuffer = render::GBufferMode::BehindMirrors;
+  for (const Tracer::Options& options : cases) {
     std::vector<Image> pictures;
     for (const GpuDevice* const device :
          {static_cast<const GpuDevice*>(nullptr), static_cast<const GpuDevice*>(&gpu)}) {
       Tracer tracer(options, device);
       const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
-      Renderer renderer(gpu, *method, kExtent, {.readComposite = true, .scene = tracer.gpuScene()});
+      Renderer renderer(gpu, *method, kExtent,
+                        {.readComposite = true, .scene = tracer.gpuScene(), .specular = options.specular});
       Image last;
       renderFrames(tracer, renderer, {12, 19}, {}, [&](const RenderedFrame& frame) { last = frame.composite; });
       pictures.push_back(std::move(last));

@@ -81,6 +81,20 @@ TEST_F(HostProgramTest, ResamplesLight) {
       << automatic.out;
 }
 
+TEST_F(HostProgramTest, ShowsSpecularLightAndWhatMirrorsShow) {
+  const auto write = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{WALR_SCENES "/gloss.gltf", "--camera", "mirror", "-o", output.string()};
+    arguments.insert(arguments.end(), {"--frames", "0-0", "--exposure", "0"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const test::ProcessResult result = host(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return test::readText(output / "frame_0000.png");
+  };
+  const std::string specular = write({"--specular"});
+  EXPECT_NE(specular, write({}));
+  EXPECT_NE(specular, write({"--specular", "--replace-mirrors"}));
+}
+
 TEST_F(HostProgramTest, ComparesTwoMethods) {
   const fs::path alone = folder.path() / "alone";
   const std::vector<std::string> frames = {scene, "--frames", "11-12"};
@@ -113,6 +127,10 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene, "-o", output.string(), "--light-rate", "1/3"}, "--light-rate");
   expectUsage({scene, "-o", output.string(), "--light-rate", "1/4", "--resampled-frames", "20"}, "--resampled-frames");
   expectUsage({scene, "-o", output.string(), "--tracer", "gpu", "--resampled-frames", "20"}, "--tracer cpu");
+  expectUsage({scene, "-o", output.string(), "--replace-mirrors"}, "--specular");
+  expectUsage({scene, "-o", output.string(), "--specular", "--gbuffer", "material"}, "--gbuffer");
+  expectUsage({scene, "-o", output.string(), "--specular", "--light-rate", "1/4"}, "--light-rate");
+  expectUsage({scene, "-o", output.string(), "--specular", "--resampled-frames", "20"}, "--resampled-frames");
   expectUsage({scene, "-o", output.string(), "--resampled-frames", "1001"}, "--resampled-frames");
   expectUsage({scene, "-o", output.string(), "--view", "nothing"}, "'guides.depth.current'");
   EXPECT_FALSE(fs::exists(output));

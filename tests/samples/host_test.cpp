@@ -528,10 +528,11 @@ struct DenoisedMetal {
   Frame shown;
   Image indirect;
 };
-DenoisedMetal denoiseMetal(const GpuDevice& gpu, Tracer::Options options) {
-  options.referenceSamples = 128;
+DenoisedMetal denoiseMetal(const GpuDevice& gpu, Tracer::Options options,
+                           render::GBufferMode gbuffer = render::GBufferMode::Material) {
+  options.referenceSamples = 64;
   Tracer firstHit(options);
-  options.gbuffer = render::GBufferMode::Material;
+  options.gbuffer = gbuffer;
   Tracer byMaterial(options);
   const std::unique_ptr<Denoiser> svgf = makeDenoiser("svgf");
   GpuDenoiser denoiser(gpu, *svgf, kExtent, projectLayout());
@@ -551,16 +552,19 @@ TEST_F(HostTest, WhatAMirrorShowsIsDenoised) {
   const test::TemporaryDirectory folder;
   Tracer::Options options = tracing();
   options.scene = boxWithMetal(folder, "tiles", 0.0);
-  const DenoisedMetal result = denoiseMetal(gpu, options);
-  const std::vector<bool> mirror = metalMask(result.own, result.shown);
-  ASSERT_GT(std::ranges::count(mirror, true), 200);
-  for (std::size_t i = 0; i < mirror.size(); ++i) {
-    const float shown = result.shown.depth.values()[i];
-    const float own = result.own.depth.values()[i];
-    ASSERT_TRUE(mirror[i] ? shown > own : shown >= own) << "pixel " << i;
+  for (const auto gbuffer : {render::GBufferMode::Material, render::GBufferMode::BehindMirrors}) {
+    options.specular = gbuffer == render::GBufferMode::BehindMirrors;
+    const DenoisedMetal result = denoiseMetal(gpu, options, gbuffer);
+    const std::vector<bool> mirror = metalMask(result.own, result.shown);
+    ASSERT_GT(std::ranges::count(mirror, true), 200);
+    for (std::size_t i = 0; i < mirror.size(); ++i) {
+      const float shown = result.shown.depth.values()[i];
+      const float own = result.own.depth.values()[i];
+      ASSERT_TRUE(mirror[i] ? shown > own : shown >= own) << "pixel " << i;
+    }
+    EXPECT_LT(shownError(result.indirect, result.shown, mirror),
+              0.5 * shownError(result.shown.indirect, result.shown, mirror));
   }
-  EXPECT_LT(shownError(result.indirect, result.shown, mirror),
-            0.5 * shownError(result.shown.indirect, result.shown, mirror));
 }
 
 // A glossy metal keeps its own guides. Its light is the reflected radiance divided by the reflected albedos.

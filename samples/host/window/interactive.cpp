@@ -52,7 +52,7 @@ class Show {
         window_(window),
         surface_(surface),
         picture_(device, extent),
-        live_(device, picture_, kFramesInFlight, tracer.light(), tracer.gpuScene()),
+        live_(device, picture_, kFramesInFlight, tracer.light(), tracer.gpuScene(), tracer.specular()),
         control_(extent),
         loader_(tracer, session),
         queue_(device.device().context(), device.device().queue(), kFramesInFlight),
