@@ -64,10 +64,9 @@ class PngReader {
   bool readHeader() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, this, &PngReader::give);
-    // Colour profiles and texts are of no use, and compressed. Exporters get checksums wrong.
+    // Colour profiles and texts are of no use, and compressed. Exporters get checksums of chunks wrong.
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_crc_action(png_, PNG_CRC_WARN_USE, PNG_CRC_QUIET_USE);
-    png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // The caller has a better message.
     png_read_info(png_, info_);
     return true;
