@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,7 +26,6 @@ struct Lane {
   std::optional<DisplayedPair> previous;
   std::vector<std::uint64_t> results;  ///< Fingerprints of the first pass's results, by frame.
   FrameTimes times;
-  std::unique_ptr<Clip> clip;  ///< Results of the first pass, for VMAF.
 };
 
 /// For how many frames before this one each pixel's surface has been visible without a gap.
@@ -83,10 +81,8 @@ class Batch {
                         std::move(record),
                         {},
                         {},
-                        {},
-                        makeClip(variant.name)});
+                        {}});
     }
-    reference_ = makeClip("_reference");
   }
 
   std::vector<RunRecord> run() {
@@ -106,7 +102,6 @@ class Batch {
       previous = std::move(frame);
       options_.frameDone();
     }
-    scoreClips();
     for (std::size_t repetition = 0; repetition < options_.repetitions; ++repetition) {
       for (std::size_t i = 0; i < frames; ++i) {
         const PackedFrame frame = packFrame(sequence_.read(i));
@@ -163,13 +158,6 @@ class Batch {
       writeNpy(picture(lane.record.variant, errors.frame), result);
       writeNpy(picture(lane.record.variant + ".errors", errors.frame), errorMaps(pair, mask, flip));
     }
-    if (lane.clip) {
-      lane.clip->append(pair.test);
-      if (&lane == &lanes_.front()) {
-        reference_->append(pair.reference);
-        scored_.push_back(lane.record.frames.size() - 1);
-      }
-    }
   }
 
   void judgeChange(Lane& lane, const DisplayedPair& pair, const PixelMask& mask,
@@ -186,26 +174,6 @@ class Batch {
       errors.luminanceChange = change->test;
       errors.referenceLuminanceChange = change->reference;
     }
-  }
-
-  [[nodiscard]] std::unique_ptr<Clip> makeClip(const std::string& name) const {
-    if (options_.vmaf == nullptr) return nullptr;
-    return std::make_unique<Clip>(options_.pictures / (name + ".rgb"));
-  }
-
-  void scoreClips() {
-    for (Lane& lane : lanes_) {
-      if (!lane.clip) continue;
-      const std::vector<double> scores =
-          options_.vmaf->scores(lane.clip->finished(), reference_->finished(), sequence_.extent());
-      if (scores.size() != scored_.size()) {
-        throw OutputError("VMAF of " + lane.record.variant + ": got " + std::to_string(scores.size()) + " scores for " +
-                          std::to_string(scored_.size()) + " frames. Choose another program with --ffmpeg");
-      }
-      for (std::size_t i = 0; i < scored_.size(); ++i) lane.record.frames[scored_[i]].vmaf = scores[i];
-      lane.clip.reset();
-    }
-    reference_.reset();
   }
 
   void time(Lane& lane, const PackedFrame& frame, std::size_t index) {
@@ -234,8 +202,6 @@ class Batch {
   const Sequence& sequence_;
   const BatchOptions& options_;
   std::vector<Lane> lanes_;
-  std::unique_ptr<Clip> reference_;
-  std::vector<std::size_t> scored_;  ///< Indices of the frames that are in the clips: those with a reference.
 };
 
 }  // namespace

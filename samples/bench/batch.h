@@ -8,7 +8,6 @@
 
 #include "samples/bench/run_record.h"
 #include "samples/bench/variant.h"
-#include "samples/bench/vmaf.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/sequence/sequence.h"
 
@@ -18,7 +17,6 @@ struct BatchOptions {
   std::size_t repetitions = 3;              ///< Timed passes over the sequence; 0: errors only.
   std::vector<int> pictureFrames;           ///< Frames whose images and error maps are kept.
   std::filesystem::path pictures;           ///< Existing folder for these images.
-  const VmafTool* vmaf = nullptr;           ///< Computes VMAF from clips in the same folder; null: no VMAF.
   std::function<void()> frameDone = [] {};  ///< Called after each frame of each pass over the sequence.
 };
 

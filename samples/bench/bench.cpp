@@ -22,11 +22,10 @@ std::string setupKey(const GpuDevice& device, const BenchOptions& options) {
   return key.text();
 }
 
-/// Key of what all runs on a sequence depend on: the setup, the VMAF program, the sequence.
+/// Key of what all runs on a sequence depend on: the setup, the sequence.
 std::string sequenceKey(const std::string& setup, const NamedSequence& sequence, const BenchOptions& options) {
   Fingerprint key;
-  key.add(setup).add(options.vmaf ? options.vmaf->description() : std::string());
-  key.add(options.allPictures ? "all pictures" : "few pictures");
+  key.add(setup).add(options.allPictures ? "all pictures" : "few pictures");
   const InputConventions& conventions = sequence.sequence.denoiserLayout().conventions;
   key.add(std::to_string(static_cast<int>(conventions.motionDepth)));
   key.add(std::to_string(conventions.light.columns) + " x " + std::to_string(conventions.light.rows));
@@ -176,8 +175,6 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
   BenchReport report;
   report.build = buildInfo();
   report.repetitions = options.repetitions;
-  if (options.vmaf) report.vmaf = options.vmaf->description();
-  report.whyNoVmaf = options.whyNoVmaf;
   report.variants = options.variants;
   for (const Variant& variant : options.variants) report.settings[variant.name] = settingsOf(variant);
   report.costs = allCosts(sequences, options.sizes, options.variants);
@@ -217,7 +214,6 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     BatchOptions batch{.repetitions = options.repetitions,
                        .pictureFrames = result.pictureFrames,
                        .pictures = pictureFolder(options.output, result.name),
-                       .vmaf = options.vmaf ? &*options.vmaf : nullptr,
                        .frameDone = [&] { progress->advance(Progress::Clock::now()); }};
     prepareOutputDirectory(batch.pictures);
     for (const std::vector<Variant>& variants : todo.batches) {

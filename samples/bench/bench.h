@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iosfwd>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,6 @@
 #include "samples/bench/run_record.h"
 #include "samples/bench/size_times.h"
 #include "samples/bench/variant.h"
-#include "samples/bench/vmaf.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/sequence/sequence.h"
 
@@ -44,8 +42,6 @@ struct BenchOptions {
   /// Number of variants that run in alternation, including the baseline, which runs in every batch. More variants need
   /// more device memory and lose more work when interrupted.
   std::size_t batch = 10;
-  std::optional<VmafTool> vmaf;  ///< Computes VMAF; absent: no VMAF.
-  std::string whyNoVmaf;         ///< Why there is no VMAF, as text.
   bool hardCases = false;        ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
   bool content = false;          ///< Also time all variants on different image content (`contentTimes`).
   bool allPictures = false;      ///< Keep the images of all frames with a reference, not of `pictureFrames` only.
@@ -67,8 +63,6 @@ struct BenchReport {
   BuildInfo build;
   DeviceFacts device;
   std::size_t repetitions = 0;
-  std::string vmaf;       ///< Program and model that computed VMAF; empty without VMAF.
-  std::string whyNoVmaf;  ///< Why there is no VMAF, as text.
   std::vector<Variant> variants;
   std::map<std::string, std::vector<SettingValue>> settings;  ///< All settings of every variant, by variant name.
   std::map<std::string, std::vector<PlanCosts>>

@@ -208,8 +208,6 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   document["estimate"] = {
       {"machine", machine.name}, {"gpu", machine.gpu}, {"compiler", figures.driver}, {"family", figures.family}};
   document["tone_map"] = "x/(1+x), exposure 1";
-  document["vmaf"] = {{"by", report.vmaf.empty() ? Json() : Json(report.vmaf)},
-                      {"missing_because", report.vmaf.empty() ? Json(report.whyNoVmaf) : Json()}};
   document["baseline"] = kBaseline;
   document["repetitions"] = report.repetitions;
   document["metrics"] = Json::array();

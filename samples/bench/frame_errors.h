@@ -20,7 +20,6 @@ struct FrameErrors {
   std::optional<double> flicker;
   std::optional<double> luminanceChange;
   std::optional<double> referenceLuminanceChange;
-  std::optional<double> vmaf;
   std::size_t nonFinite = 0;  ///< Number of non-finite values in the result.
 };
 
@@ -48,8 +47,6 @@ inline constexpr std::array kMetrics = {
            "mean change of luminance from frame to frame at fixed pixels"},
     Metric{"reference_luminance_change", &FrameErrors::referenceLuminanceChange, Metric::Better::AsReference,
            "the same of the reference"},
-    Metric{"vmaf", &FrameErrors::vmaf, Metric::Better::Higher,
-           "VMAF (Li et al. 2016) by libvmaf, 0 to 100, after the tone map, 8 bits; insensitive to fine noise"},
 };
 
 /// Mean of a metric over the frames that have it.

@@ -391,11 +391,6 @@ def content_section(bench):
                  "and in all of the image.")
 
 
-def vmaf_note(vmaf):
-    """The program that computed VMAF, or why there is no VMAF."""
-    return html.escape(f"VMAF by {vmaf['by']}." if vmaf["by"] else f"No VMAF: {vmaf['missing_because']}.")
-
-
 def page(bench):
     data, device = bench.json, bench.json["device"]
     out = [f"<!doctype html><html lang=en><meta charset=utf-8><title>walr bench</title><style>{STYLE}</style>",
@@ -440,7 +435,7 @@ def page(bench):
     out.append("<h2>Metrics</h2><dl>" + "".join(
         f"<dt>{html.escape(m['name'])}</dt><dd>{html.escape(m['description'])}</dd>" for m in data["metrics"]) + "</dl>"
         "<p>Errors are those of the demodulated diffuse indirect light, over pixels with a diffuse lobe. Non-finite "
-        "values count as the largest possible error and are shown in magenta. " + vmaf_note(data["vmaf"]) + "</p></html>")
+        "values count as the largest possible error and are shown in magenta.</p></html>")
     return "\n".join(out)
 
 

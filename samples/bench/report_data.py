@@ -11,7 +11,7 @@ COLOURS = {"walr": "#000000", "walr_paper": "#666666", "bmfr": "#0072B2", "svgf"
 SPARE_COLOURS = ["#8C6D31", "#7F3C8D", "#B2182B", "#4D9221"]
 ERRORS = [("rmse", "RMSE"), ("flip", "FLIP"), ("ssim", "1 - SSIM"), ("flicker", "flicker")]
 TABLE = [("rmse", "RMSE", 4), ("psnr", "PSNR", 2), ("ssim", "SSIM", 4), ("flip", "FLIP", 4),
-         ("relative_mse", "relMSE", 4), ("flicker", "flicker", 5), ("vmaf", "VMAF", 1)]
+         ("relative_mse", "relMSE", 4), ("flicker", "flicker", 5)]
 
 
 class Bench:

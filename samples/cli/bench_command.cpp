@@ -40,8 +40,6 @@ struct BenchArguments {
   BenchOptions bench;
   bool noHtml = false;
   std::string python = "/usr/bin/python3";
-  std::string ffmpeg = "ffmpeg";
-  std::filesystem::path vmafModel;
 };
 
 /// Variants in the order of the command line, the baseline first.
@@ -97,7 +95,6 @@ void runBench(BenchArguments& arguments, const std::string& command) {
   if (!arguments.frames.empty()) arguments.sequence.frames = parseFrameRange(arguments.frames);
   const std::vector<NamedSequence> sequences = openSequences(arguments.sequences, arguments.sequence);
   requireUsable(arguments.bench.variants, sequences);
-  arguments.bench.vmaf = VmafTool::find(arguments.ffmpeg, arguments.vmafModel, arguments.bench.whyNoVmaf);
   const std::filesystem::path& output = arguments.bench.output;
   prepareOutputDirectory(output);
 
@@ -190,14 +187,6 @@ void registerBench(CLI::App& program) {
   command->add_option("--python", arguments->python, "Python 3 with matplotlib, which draws report.html")
       ->type_name("FILE")
       ->capture_default_str();
-  command
-      ->add_option("--ffmpeg", arguments->ffmpeg,
-                   "An ffmpeg with the filter libvmaf, which computes VMAF; without one, there is no VMAF")
-      ->type_name("FILE")
-      ->capture_default_str();
-  command->add_option("--vmaf-model", arguments->vmafModel, "Model file for libvmaf; default: libvmaf's own model")
-      ->check(CLI::ExistingFile)
-      ->type_name("FILE");
   command->footer(kExitCodeHelp);
   command->callback([arguments, command, &program] {
     if (arguments->sweeps == std::vector<std::string>{"all"}) {

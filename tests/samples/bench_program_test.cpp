@@ -68,7 +68,6 @@ TEST_F(BenchProgramTest, MeasuresMethodsBesideEachOther) {
   EXPECT_FALSE(data["commit"].get<std::string>().empty());
   EXPECT_FALSE(data["device"]["driver"].get<std::string>().empty());
   EXPECT_GT(data["device"]["copy_bytes_per_second"], 0.0);
-  EXPECT_EQ(data["vmaf"]["missing_because"].is_null(), data["vmaf"]["by"].is_string());
   ASSERT_EQ(data["variants"].size(), 6U);  // walr, two methods, and three values of the sweep `replacement`.
   EXPECT_EQ(data["variants"][0]["name"], "walr");
   // The sweep changes the preset `robust`, whose own value is the default.

@@ -78,13 +78,6 @@ def page(kept, gpu):
     noise = listed(f"{number(v, 4)} on `{s}`" for s, v in kept["noise"].items() if v is not None)
     standings = "".join(f"* On `{s}` " + standing({n: m["sequences"][s] for n, m in kept["methods"].items() if not n.startswith("walr:")}, "walr", list(LABELS)) + ".\n"
                         for s in kept["noise"]) + "  Other presets of `walr` are not counted here.\n"
-    vmaf = ""
-    if kept["vmaf"]:
-        program, model = kept["vmaf"].rsplit(", ", 1)
-        vmaf = ("\n## VMAF\n\nA video metric, 0 to 100; higher is better. It is insensitive to fine noise, so no method should be judged by it "
-                f"alone. {' '.join(program.split()[:3])}, {model}.\n\n" +
-                table(["method", *(f"`{s}`" for s in kept["noise"])],
-                      [[f"`{n}`", *(f"{s['vmaf']:.1f}" for s in m["sequences"].values())] for n, m in kept["methods"].items()]))
     return f"""# Methods on frames of Cycles
 
 Written by `samples/results/write.py` from `data/cycles.json`. Two sequences rendered with Blender Cycles, 384 x 216, 1 sample per
@@ -105,7 +98,7 @@ reproduce](METHODS.md). Values are means over the frames after the fourth, over 
 *The two places of each sequence's last frame in which the methods' mean FLIP is largest. Below each: change of the error in luminance
 from the frame before, along motion. Red: brighter. Blue: darker. Grey: the surface was not visible in the frame before. Flicker,
 trails, and seams that do not stay with their surface show there.*
-{response_section(kept)}{vmaf}
+{response_section(kept)}
 ## How it was measured
 
 At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driver']}, with

@@ -11,7 +11,7 @@ from markdown_text import listed, verdict
 RESULTS = pathlib.Path(__file__).resolve().parents[1]
 DATA = RESULTS / "data"
 IMAGES = RESULTS / "images"
-FIGURES = ("rmse", "ssim", "flip", "flicker", "vmaf")
+FIGURES = ("rmse", "ssim", "flip", "flicker")
 RESPONSES = ("first_frame_rmse", "settled_rmse", "settled_flicker", "light_frames", "light_lag", "recovery_frames")
 
 
@@ -73,7 +73,7 @@ def keep_methods(data):
     command = re.sub(r"(--sequences )\S*/", r"\1SEQUENCES/", data["command"])
     kept = {"commit": data["commit"][:12], "compiler": f"{data['compiler']}, {data['build_type']}", "command": command,
             "device": data["device"]["name"], "driver": data["device"]["driver"], "software": data["device"]["software"],
-            "vmaf": data["vmaf"]["by"], "noise": {}, "methods": {}}
+            "noise": {}, "methods": {}}
     for variant in data["variants"]:
         if not variant["sweep"]:
             kept["methods"][variant["name"]] = {**costs_at_1080p(variant), "sequences": {}}
