@@ -25,7 +25,6 @@ import entries
 import figures
 import intervals
 import judging
-import noise
 import places
 import rate_entries
 import rates
@@ -37,43 +36,6 @@ import sizes_page
 from markdown_text import verdict
 
 TINY = entries.Entry("tiny", entries.BUILT_IN / "stair.gltf", (64, 36), (2, 4), 1, reference_samples=4, part="daily")
-
-
-class Noise(unittest.TestCase):
-    """The noise that walr takes accumulated light to have, where truth and noise are known."""
-
-    SHAPE, FRAMES = (90, 160), (24, 32, 40, 48)
-
-    def ratios(self, samples_of):
-        """Estimated over measured standard error by quantiles of luminance. samples_of(truth): one frame's light."""
-        rows, columns = np.mgrid[:self.SHAPE[0], :self.SHAPE[1]]
-        truth = 10.0 ** (2 * columns / self.SHAPE[1] - 1)
-        predicted = truth * (1 + 0.02 * np.sin(columns / 3))
-        everywhere, estimate, mean, found = np.ones(self.SHAPE, bool), noise.Estimate(), 0.0, []
-        for frame in range(1, self.FRAMES[-1] + 1):
-            light, length = samples_of(truth), min(frame, noise.MAX_HISTORY)
-            mean = mean + (light - mean) / length
-            known = estimate.add(light, mean, predicted, np.full(self.SHAPE, float(length)), everywhere)
-            if frame in self.FRAMES:
-                found.append(noise.by_quantile(truth, known, (mean - truth) ** 2, everywhere))
-        estimated, measured = (np.sqrt((np.array(found)[:, :, i] ** 2).mean(axis=0)) for i in (1, 2))
-        return estimated / measured
-
-    def test_is_known_for_any_number_of_samples(self):
-        random = np.random.default_rng(3)
-        for samples in (1, 4, 16, 64):
-            frames = {"gamma": lambda truth: truth * random.gamma(samples, 1 / samples, self.SHAPE),
-                      "one path in 500": lambda truth: truth * random.binomial(samples, 1 / 500, self.SHAPE) * 500 / samples}
-            for name, samples_of in frames.items():
-                for ratio in self.ratios(samples_of):
-                    # This project's requirement. With one path in 500, a quantile has 200 bright paths in the four frames, so
-                    # that its measured standard error errs by about 5 % itself.
-                    self.assertLess(abs(ratio - 1), 0.15, (name, samples))
-
-    def test_noise_that_halves_share_is_not_seen(self):
-        random = np.random.default_rng(3)
-        shared = random.gamma(1.0, 1.0, self.SHAPE)
-        self.assertTrue((self.ratios(lambda truth: truth * shared) < 0.1).all())
 
 
 class Table(unittest.TestCase):
