@@ -23,10 +23,8 @@ import cycles_page
 import figures_page
 import gpu_page
 import index_page
-import rate_entries
 import rates_page
 import records
-import sizes_page
 
 PROJECT = HERE.parents[1]
 README, GUIDE = PROJECT / "README.md", PROJECT / "integration" / "docs" / "advanced.md"
@@ -66,7 +64,6 @@ def documents():
             HERE / "CYCLES.md": cycles_page.page(cycles, gpu),
             HERE / "GPU.md": gpu_page.page(gpu),
             HERE / "RATES.md": rates_page.page(rates),
-            HERE / "SIZES.md": sizes_page.page(heights, rates, rate_entries.SIZE[1]),
             **{HERE / f"CORPUS_{name}.md": corpus_page.page(run, f"data/corpus_{name}.json", f"images/places_{name}.webp", remarks[name])
                for name, run in kept.items()}}
 

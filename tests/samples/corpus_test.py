@@ -23,6 +23,7 @@ import corpus
 import corpus_page
 import entries
 import figures
+import index_page
 import intervals
 import judging
 import places
@@ -32,7 +33,6 @@ import rates_page
 import records
 import rendering
 import results
-import sizes_page
 from markdown_text import verdict
 
 TINY = entries.Entry("tiny", entries.BUILT_IN / "stair.gltf", (64, 36), (2, 4), 1, reference_samples=4, part="daily")
@@ -385,7 +385,6 @@ class Figures(unittest.TestCase):
         self.assertIn("| `accumulate` |", page)
         self.assertIn("    samples/results/figures.py", documents["samples/results/CORPUS_540.md"])
         self.assertIn("(METHODS.md)", documents["samples/results/README.md"])
-        self.assertIn("| 36 | `tiny` | 1 |", documents["samples/results/SIZES.md"])
         self.assertEqual(set(figures.write.figures_page.pareto_points(kept, records.load("gpu"))), {"walr", "walr_paper", "svgf"})
 
 
@@ -409,22 +408,14 @@ class Listing(unittest.TestCase):
                 self.assertIn(name, text)
 
 
-class Sizes(unittest.TestCase):
-    def entry(self, held_back, ratio):
-        methods = {"walr": {"rmse": [0.01, 0.009, 0.011]}, "flr": {"rmse": [0.01 * ratio[0], 0, 0], "ratio": {"rmse": ratio}}}
-        return {"scene": "box", "size": [960, 540], "samples": 4, "held_back": held_back, "methods": methods}
+class Leads(unittest.TestCase):
+    def test_methods_ahead_beyond_the_interval_are_named_but_not_variants(self):
+        def entry(**ratios):
+            return {"methods": {"walr": {}, **{method: {"ratio": {"rmse": ratio}} for method, ratio in ratios.items()}}}
 
-    def test_the_page_tells_errors_losses_and_gains(self):
-        record = {"entries": {"ahead": self.entry(False, [1.25, 1.2, 1.3]), "behind": self.entry(True, [0.9, 0.85, 0.95])},
-                  "summary": {"flr": {"rmse": [1.25, 1.2, 1.3]}}, "held_back_summary": {"flr": {"rmse": [2.0, 1.9, 2.1]}}}
-        rates_record = {"scenes": {"sponza": {"1/4": {"walr": 0.2}, "16": {"walr": 0.02, "flr": 0.03}}}}
-        lines = sizes_page.page([record], rates_record, 216).splitlines()
-        self.assertIn("| 216 | `sponza` | 16 | .0200 | - | - | - | 1.50 | - | - | - | - |", lines)
-        self.assertIn("| 540 | `ahead` | 4 | .0100 | - | - | - | 1.25 &gt; | - | - | - | - |", lines)
-        self.assertIn("| 540 | `behind` (held back) | 4 | .0100 | - | - | - | 0.90 &lt; | - | - | - | - |", lines)
-        self.assertIn("| `behind` | `flr` by 10 % |", lines)
-        self.assertFalse([line for line in lines if line.startswith("| `ahead` |")])
-        self.assertIn("| 540 | `flr` | 20.0 % | 50.0 % | 2.50 |", lines)
+        record = {"variants": ["mine=walr,blocks.size=4"], "entries": {
+            "fence": entry(flr=[0.9, 0.85, 0.95], mine=[0.5, 0.4, 0.6]), "box": entry(flr=[0.9, 0.7, 1.1], svgf=[1.2, 1.1, 1.3])}}
+        self.assertEqual(index_page.leads([record]), ["`flr` on `fence` by 10 %"])
 
 
 class Rates(unittest.TestCase):

@@ -49,7 +49,7 @@ class Check(unittest.TestCase):
 
         pages = "samples/results/"
         self.assertEqual(altered("gpu", time), {"README.md", pages + "README.md", pages + "METHODS.md", pages + "CYCLES.md", pages + "GPU.md"})
-        self.assertEqual(altered("corpus_1080", error), {pages + "README.md", pages + "CORPUS_1080.md", pages + "SIZES.md"})
+        self.assertEqual(altered("corpus_1080", error), {pages + "README.md", pages + "CORPUS_1080.md"})
         self.assertEqual(altered("rates", rate), {"integration/docs/advanced.md", pages + "RATES.md"})
 
     def test_a_remark_on_a_place_that_is_no_longer_among_the_worst_is_found(self):

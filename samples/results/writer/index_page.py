@@ -3,7 +3,7 @@ import corpus_page
 import figures_page
 import gpu_page
 from entries import BUILT_IN
-from markdown_text import filled, indented, listed, number, table, with_interval
+from markdown_text import filled, indented, listed, number, table, verdict, with_interval
 
 SHOWN = ("flr", "svgf", "bmfr", "walr_paper", "none")
 """Methods beside `walr` in the table of errors."""
@@ -29,12 +29,22 @@ def errors_section(kept):
             table(["sequence", "`walr`", *("input" if m == "none" else f"`{m}`" for m in SHOWN)], rows) + note)
 
 
+def leads(records):
+    """Where a method errs less than the baseline, beyond the interval of their ratio."""
+    return [f"`{method}` on `{name}` by {100 * (1 - figures['ratio']['rmse'][0]):.0f} %" for kept in records
+            for name, entry in kept["entries"].items() for method, figures in entry["methods"].items()
+            if method not in corpus_page.kept_variants(kept) and verdict(figures.get("ratio", {}).get("rmse")) == "better"]
+
+
 def sizes_section(records):
+    ahead = leads(records)
+    behind = f"Ahead of `walr` beyond the interval: {listed(ahead)}." if ahead else "None is ahead of `walr` beyond the interval of a sequence."
+    pages = listed(f"[{lines}](CORPUS_{lines}.md)" for lines in map(corpus_page.lines_of, records))
     ratios = listed(f"`{method}` {kept['summary'][method]['rmse'][0]:.2f} at {corpus_page.lines_of(kept)} lines"
                     for kept in records for method in ("svgf", "walr_paper"))
     return ("## Does that hold for other sizes, scenes and numbers of samples?\n\n" +
             filled(f"The error of other methods over that of `walr`, in the geometric mean of a size's sequences: {ratios}. "
-                   "[Every sequence, and where `walr` is behind](SIZES.md).") + "\n![RMSE by sequence](images/sizes.png)\n")
+                   f"{behind} Every sequence, and those held back, by lines: {pages}; by rays per pixel, at 216 lines: [rates](RATES.md).") + "\n![RMSE by sequence](images/sizes.png)\n")
 
 
 def speed_section(first, gpu):
@@ -66,8 +76,7 @@ def measured_section(records, cycles, gpu, rates):
     return ("## What was measured\n\n" +
             table(["page", "what", "day", "commit"], [[page, what, kept["date"], kept["commit"]] for page, what, kept, _ in runs]) +
             "\n" + filled("[Speed against error](METHODS.md) and the table of the README show the run at 540 lines. "
-                          "[Errors by size](SIZES.md) is one table of all errors above but those of Cycles. All are errors of today's "
-                          "defaults: a change of a default measures again, or removes, what is here. The commands, in the order of the "
+                          "All are errors of today's defaults: a change of a default measures again, or removes, what is here. The commands, in the order of the "
                           "table:") + "\n" +
             "\n\n".join(indented(command) for *_, command in runs) + "\n")
 
