@@ -1,5 +1,5 @@
 """The page of times measured on a GPU, from what `walr gpu-report` wrote."""
-from markdown_text import number, over, table
+from markdown_text import filled, listed, number, over, table
 
 PAGE_SIZES = ((1920, 1080), (2560, 1440), (3840, 2160))
 CONTENT = "scene"  # Paths traced, one a pixel; the report also has a synthetic content.
@@ -120,11 +120,14 @@ def probes_table(kept):
     return table(["probe", "ms", "GB/s", "billion fetches/s", "ns a fetch", "what it does"], rows)
 
 
-def agreement_table(kept):
-    rows = [[f"`{name}`", sequence, f"{rmse:.5f}", f"{reference:.5f}", f"{difference:.6f}", over(100 * difference, rmse, 1),
-             "yes" if differs else ""]
-            for name, method in kept["methods"].items() for sequence, rmse, reference, difference, differs in method["agreement"]]
-    return table(["method", "sequence", "RMSE", "RMSE on the processor", "RMS difference", "% of RMSE", "differs"], rows)
+def agreement_text(kept):
+    """Which results differ from a processor's, and how much the others do at most."""
+    found = [(difference / rmse, differs, f"`{name}` on the sequence '{sequence}'") for name, method in kept["methods"].items()
+             for sequence, rmse, _, difference, differs in method["agreement"]]
+    differing = [which for _, differs, which in found if differs] or ["none"]
+    share, _, most = max(f for f in found if not f[1])
+    return filled(f"Of {len(found)} results, these differ by more than a tenth of their own error in the root mean square, or are not finite: "
+                  f"{listed(differing)}. Of the others, that of {most} differs most, by {100 * share:.1f} % of its error.")
 
 
 def page(kept):
@@ -162,8 +165,7 @@ A buffer and a texture of 256 MiB.
 {probes_table(kept)}
 ## Results
 
-The last frame of short sequences of 192 x 108 pixels, after the tone map x / (1 + x), against the known truth and against the same frame
-from a processor, computed by Mesa's lavapipe. A method **differs** if the RMS difference is more than a tenth of its own RMSE, or if a
-value is not finite.
+The last frame of short sequences of 192 x 108 pixels, after the tone map x / (1 + x), is compared with the known truth and with the same
+frame from a processor, computed by Mesa's lavapipe.
 
-{agreement_table(kept)}"""
+{agreement_text(kept)}"""
