@@ -1,5 +1,7 @@
-#include <filesystem>
+#include <algorithm>
 #include <iostream>
+#include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -8,10 +10,9 @@
 
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/program.h"
-#include "samples/command_line/usage_error.h"
 #include "samples/image/file_output.h"
-#include "tests/costs/budget.h"
 #include "tests/costs/figures.h"
+#include "tests/costs/limits.h"
 #include "tests/costs/table.h"
 
 namespace walr::costs {
@@ -25,7 +26,6 @@ struct Options {
   std::string machine = std::string(kDefaultMachine);
   std::string check;
   std::string update;
-  std::string figures;
 };
 
 TripCounts tripCounts() {
@@ -52,47 +52,34 @@ void print(const std::vector<MethodCosts>& methods, const std::string& machineNa
     std::cout << "\n### " << method.name.text() << ", " << method.extent.width << " x " << method.extent.height
               << "\n\n"
               << costTable(method, machine);
-    for (const PassCosts& pass : method.passes) {
-      if (pass.wave) continue;
-      std::cout << "\n"
-                << pass.shader << " has " << pass.loops << " loops, for which trip_counts.json has no rounds.\n";
-    }
   }
+  for (const std::string& line : unknownLoops(methods)) std::cout << '\n' << line << '\n';
 }
 
 /// @returns the exit code
 int check(const Options& options, NullDevice& device) {
-  const Budget budget = readBudget(options.check);
-  if (device.family() != budget.family) {
-    throw std::runtime_error(options.check + " is a budget for " + budget.family + ", not " + device.family() +
+  const FigureTable committed = readFigures(options.check);
+  if (device.family() != committed.family) {
+    throw std::runtime_error(options.check + " is for " + committed.family + ", not " + device.family() +
                              ": unset RADV_FORCE_FAMILY");
   }
-  const auto methods = costsOf(options.methods, budget.extent, device);
-  auto found = violations(budget, methods, device.driver());
-  if (!options.figures.empty()) {
-    const FigureTable committed = readFigures(options.figures);
-    if (committed.driver == device.driver()) {
-      for (const std::string& line :
-           differences(committed, figuresOf(methods, device, tripCounts(), machineNamed(committed.machine)))) {
-        found.push_back(line + "; build the target update_costs");
-      }
+  const auto methods = costsOf({}, committed.extent, device);
+  auto found = violations(methods);
+  if (committed.driver == device.driver()) {
+    std::ranges::move(unknownLoops(methods), std::back_inserter(found));
+    for (const std::string& line :
+         differences(committed, figuresOf(methods, device, tripCounts(), machineNamed(committed.machine)))) {
+      found.push_back(line + "; build the target update_costs");
     }
+  } else {
+    std::cout << "Compiled by " << device.driver() << " and not by " << committed.driver
+              << ", so that only spills, scratch memory and waves are looked at.\n";
   }
   for (const std::string& violation : found) std::cout << violation << '\n';
-  std::cout << (found.empty() ? "Within the budget" : "Not within the budget") << " of " << budget.driver << " for "
-            << budget.family;
-  if (device.driver() != budget.driver) {
-    std::cout << "; compiled by " << device.driver()
-              << ", so that only spills, scratch memory, waves and branches were looked at";
-  }
-  std::cout << ".\n";
   return found.empty() ? 0 : 1;
 }
 
 int run(const Options& options) {
-  if (!options.figures.empty() && options.check.empty() && options.update.empty()) {
-    throw UsageError("--figures needs --check or --update");
-  }
   if (!selectRadv()) {
     std::cout << "Skipped: Mesa's driver for AMD GPUs is not installed (package mesa-vulkan-drivers).\n";
     return kSkipped;
@@ -104,12 +91,8 @@ int run(const Options& options) {
     print(methods, options.machine, device);
     return 0;
   }
-  const Budget former = std::filesystem::exists(options.update) ? readBudget(options.update) : Budget();
-  writeBudget(budgetOf(methods, device, former), options.update);
-  if (!options.figures.empty()) {
-    const std::string json = figuresJson(figuresOf(methods, device, tripCounts(), machineNamed(kDefaultMachine)));
-    writeFileAtomically(options.figures, std::as_bytes(std::span(json)));
-  }
+  const std::string json = figuresJson(figuresOf(methods, device, tripCounts(), machineNamed(kDefaultMachine)));
+  writeFileAtomically(options.update, std::as_bytes(std::span(json)));
   return 0;
 }
 
@@ -127,20 +110,17 @@ int main(int argc, char** argv) {
   size->type_name("WIDTHxHEIGHT")->capture_default_str();
   program.add_option("--machine", options.machine, "GPU of machines.json that times are estimated for")
       ->capture_default_str();
-  CLI::Option_group* task = program.add_option_group("Budget", "In place of the tables");
-  task->add_option("--check", options.check, "Hold the costs against a budget: exit code 1 if one is higher")
+  CLI::Option_group* task = program.add_option_group("Table", "In place of printing");
+  task->add_option(
+          "--check", options.check,
+          "Hold the costs of all methods against a table of figures and the limits: exit code 1 if they differ")
       ->type_name("FILE")
       ->check(CLI::ExistingFile)
-      ->excludes(size);
-  task->add_option("--update", options.update, "Write the costs of all methods as the budget")
+      ->excludes(methods, size);
+  task->add_option("--update", options.update, "Write the figures of all methods as the table")
       ->type_name("FILE")
-      ->excludes(methods);
+      ->excludes(methods, size);
   task->require_option(0, 1);
-  program
-      .add_option("--figures", options.figures,
-                  "Also hold samples/estimate/shader_figures.json against the shaders, or write it")
-      ->type_name("FILE")
-      ->excludes(methods);
   program.callback([&] { result = walr::costs::run(options); });
   const int error = walr::runProgram(program, argc, argv);
   return error != 0 ? error : result;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "samples/bench/variant_estimate.h"
-#include "tests/costs/budget.h"
 #include "tests/costs/figures.h"
+#include "tests/costs/limits.h"
 
 namespace walr::costs {
 namespace {
@@ -56,6 +56,38 @@ TEST(Machine, IsFoundByTheNameOfAVulkanDevice) {
   EXPECT_EQ(machineOfDevice("llvmpipe (LLVM 15.0.6, 256 bits)"), nullptr);
 }
 
+/// A method with one pass, which takes as much as a SIMD can bear.
+MethodCosts barelyGood() {
+  PassCosts pass;
+  pass.pass = "filter";
+  pass.shader = "box_filter";
+  pass.compiled.waves = 3;
+  pass.wave.emplace();
+  return {.name = {"method", "preset"}, .extent = {64, 64}, .passes = {pass}};
+}
+
+TEST(Limits, AreNoSpillsNoScratchMemoryAndThreeWaves) {
+  MethodCosts method = barelyGood();
+  EXPECT_TRUE(violations({method}).empty());
+  method.passes[0].compiled.spills = 2;
+  method.passes[0].compiled.scratchBytes = 1024;
+  method.passes[0].compiled.waves = 2;
+  EXPECT_EQ(violations({method}),
+            (std::vector<std::string>{"method:preset, filter: 2 spilled registers, and not 0",
+                                      "method:preset, filter: 1024 bytes of scratch memory, and not 0",
+                                      "method:preset, filter: 2 waves a SIMD, and not 3 at least"}));
+}
+
+TEST(Limits, NameLoopsWithoutTripCounts) {
+  MethodCosts method = barelyGood();
+  EXPECT_TRUE(unknownLoops({method}).empty());
+  method.passes[0].wave.reset();
+  method.passes[0].loops = 3;
+  EXPECT_EQ(unknownLoops({method}),
+            std::vector<std::string>{
+                "method:preset, filter: box_filter has 3 loops; write the rounds of each into trip_counts.json"});
+}
+
 /// The default method's costs, measured once.
 class ShaderCostsOfTheDefault : public ::testing::Test {
  protected:
@@ -63,36 +95,12 @@ class ShaderCostsOfTheDefault : public ::testing::Test {
     if (!selectRadv()) GTEST_SKIP() << "Mesa's driver for AMD GPUs is not installed";
     device_.emplace();
     costs_ = methodCosts({"walr", ""}, kExtent, *device_, trips_);
-    budget_ = budgetOf({costs_}, *device_, Budget());
-  }
-
-  [[nodiscard]] std::vector<std::string> found(const Budget& budget) const {
-    return violations(budget, {costs_}, device_->driver());
   }
 
   std::optional<NullDevice> device_;
   TripCounts trips_{WALR_COSTS "/trip_counts.json"};
   MethodCosts costs_;
-  Budget budget_;
 };
-
-TEST_F(ShaderCostsOfTheDefault, FailTheCheckOnceTheBudgetFileIsLowered) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "lowered_budget.json";
-  writeBudget(budget_, file);
-  EXPECT_TRUE(found(readBudget(file)).empty());
-
-  Budget lowered = readBudget(file);
-  lowered.passes.at(0).vectorRegisters /= 2;
-  lowered.passes.at(1).cyclesPerWave *= 0.9;
-  lowered.passes.at(2).branches = 0;
-  writeBudget(lowered, file);
-  const auto violations = found(readBudget(file));
-  ASSERT_EQ(violations.size(), 3U) << ::testing::PrintToString(violations);
-  EXPECT_NE(violations[0].find("vector registers"), std::string::npos) << violations[0];
-  EXPECT_NE(violations[1].find("cycles a wave"), std::string::npos) << violations[1];
-  EXPECT_NE(violations[2].find("branches, and not 0 at most"), std::string::npos) << violations[2];
-  std::filesystem::remove(file);
-}
 
 TEST_F(ShaderCostsOfTheDefault, CoverThePlan) {
   EXPECT_TRUE(costs_.cyclesPerPixel().has_value()) << "some loop has no trip count";
