@@ -1,8 +1,8 @@
 #include "samples/bench/bench.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <span>
 
@@ -15,17 +15,11 @@
 namespace walr {
 namespace {
 
-/// Key of what all runs depend on: program, device, repetitions.
-std::string setupKey(const GpuDevice& device, const BenchOptions& options) {
+/// Key of what all runs on a sequence depend on: program, device, repetitions, sequence.
+std::string sequenceKey(const GpuDevice& device, const NamedSequence& sequence, const BenchOptions& options) {
   Fingerprint key;
   key.addFile("/proc/self/exe").add(device.name()).add(device.driver()).add(std::to_string(options.repetitions));
-  return key.text();
-}
-
-/// Key of what all runs on a sequence depend on: the setup, the sequence.
-std::string sequenceKey(const std::string& setup, const NamedSequence& sequence, const BenchOptions& options) {
-  Fingerprint key;
-  key.add(setup).add(options.allPictures ? "all pictures" : "few pictures");
+  key.add(options.allPictures ? "all pictures" : "few pictures");
   const InputConventions& conventions = sequence.sequence.denoiserLayout().conventions;
   key.add(std::to_string(static_cast<int>(conventions.motionDepth)));
   key.add(std::to_string(conventions.light.columns) + " x " + std::to_string(conventions.light.rows));
@@ -73,7 +67,6 @@ std::vector<std::vector<Variant>> batchesOf(const std::vector<Variant>& missing,
 }
 
 std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSequence>& sequences,
-                                                       const std::vector<fg::Extent>& sizes,
                                                        const std::vector<Variant>& variants) {
   std::vector<fg::Extent> extents;
   const auto addOnce = [&](fg::Extent extent) {
@@ -81,7 +74,6 @@ std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSe
   };
   for (const NamedSequence& sequence : sequences) addOnce(sequence.sequence.extent());
   const std::size_t required = extents.size();
-  std::ranges::for_each(sizes, addOnce);
   std::ranges::for_each(kCommonExtents, addOnce);
   const InputConventions conventions =
       sequences.empty() ? InputConventions{} : sequences.front().sequence.denoiserLayout().conventions;
@@ -96,51 +88,6 @@ std::map<std::string, std::vector<PlanCosts>> allCosts(const std::vector<NamedSe
     }
   }
   return costs;
-}
-
-/// The missing runs of one size.
-struct SizeWork {
-  fg::Extent extent;
-  std::string name;  ///< Name in the store. It contains a slash, which sequence names do not.
-  std::vector<std::vector<Variant>> batches;
-};
-
-std::vector<SizeWork> sizeWork(const std::string& setup, const RunStore& store, const BenchOptions& options) {
-  std::vector<SizeWork> work;
-  for (const fg::Extent extent : options.sizes) {
-    SizeWork todo{extent, "sizes/" + std::to_string(extent.width) + "x" + std::to_string(extent.height), {}};
-    std::vector<Variant> missing;
-    for (const Variant& variant : options.variants) {
-      if (!store.find(todo.name, variant.name, runKey(setup, variant))) missing.push_back(variant);
-    }
-    todo.batches = batchesOf(missing, options.variants.front(), options.batch);
-    work.push_back(std::move(todo));
-  }
-  return work;
-}
-
-/// Time the missing variants at a size, and return the times of all variants.
-SizeTimes timeSize(const GpuDevice& device, const std::string& setup, const RunStore& store, const SizeWork& todo,
-                   const BenchOptions& options, const std::function<void()>& frameDone) {
-  std::map<std::string, std::string> whyNot;
-  for (const std::vector<Variant>& variants : todo.batches) {
-    const SizeTimes found = sizeTimes(device, variants, todo.extent, options.repetitions, frameDone);
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-      const SizeTiming& timing = found.timings[i];
-      whyNot[timing.variant] = timing.whyNot;
-      if (!timing.whyNot.empty()) continue;
-      RunRecord record;
-      record.variant = timing.variant;
-      record.timing = timing.timing;
-      store.save(todo.name, record, runKey(setup, variants[i]));
-    }
-  }
-  SizeTimes all{todo.extent, {}};
-  for (const Variant& variant : options.variants) {
-    const auto record = store.find(todo.name, variant.name, runKey(setup, variant));
-    all.timings.push_back({variant.name, record ? record->timing : Timing(), record ? "" : whyNot.at(variant.name)});
-  }
-  return all;
 }
 
 }  // namespace
@@ -177,15 +124,16 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
   report.repetitions = options.repetitions;
   report.variants = options.variants;
   for (const Variant& variant : options.variants) report.settings[variant.name] = settingsOf(variant);
-  report.costs = allCosts(sequences, options.sizes, options.variants);
-  report.device = deviceFacts(device);
+  report.costs = allCosts(sequences, options.variants);
+  const fg::vk::DeviceContext& context = device.device().context();
+  report.device = {device.name(), device.driver(), device.isSoftware(),
+                   context.timestampBits > 0 ? context.properties.limits.timestampPeriod : 0.0};
 
   const RunStore store(options.output / "runs");
-  const std::string setup = setupKey(device, options);
   std::vector<Work> work;
   std::size_t frames = 0;
   for (const NamedSequence& sequence : sequences) {
-    Work todo{&sequence, sequenceKey(setup, sequence, options), {}};
+    Work todo{&sequence, sequenceKey(device, sequence, options), {}};
     std::vector<Variant> missing;
     for (const Variant& variant : options.variants) {
       if (!store.find(sequence.name, variant.name, runKey(todo.key, variant))) missing.push_back(variant);
@@ -196,10 +144,6 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     frames += todo.batches.size() * sequence.sequence.entries().size() * (options.repetitions + 1);
     work.push_back(std::move(todo));
   }
-
-  const std::vector<SizeWork> sizes = sizeWork(setup, store, options);
-  for (const SizeWork& todo : sizes) frames += todo.batches.size() * kFramesPerRepetition * (options.repetitions + 1);
-  if (options.content) frames += options.variants.size() * kFramesPerRepetition * (options.repetitions + 1);
 
   std::optional<Progress> progress;
   if (frames > 0) progress.emplace(log, terminal, "frame", frames, Progress::Clock::now());
@@ -224,14 +168,6 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     for (const Variant& variant : options.variants) {
       result.runs.push_back(store.find(result.name, variant.name, runKey(todo.key, variant)).value());
     }
-  }
-  for (const SizeWork& todo : sizes) {
-    report.sizes.push_back(
-        timeSize(device, setup, store, todo, options, [&] { progress->advance(Progress::Clock::now()); }));
-  }
-  if (options.content) {
-    report.contents = contentTimes(device, options.variants, kContentExtent, options.repetitions,
-                                   [&] { progress->advance(Progress::Clock::now()); });
   }
   progress.reset();
   if (options.response) report.responses = responses(device, options.variants);

@@ -9,13 +9,10 @@
 
 #include "samples/bench/bench_frame.h"
 #include "samples/bench/build_info.h"
-#include "samples/bench/content_times.h"
-#include "samples/bench/device_facts.h"
 #include "samples/bench/numerics.h"
 #include "samples/bench/plan_costs.h"
 #include "samples/bench/response.h"
 #include "samples/bench/run_record.h"
-#include "samples/bench/size_times.h"
 #include "samples/bench/variant.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/sequence/sequence.h"
@@ -38,14 +35,12 @@ struct BenchOptions {
   std::vector<Variant> variants;  ///< The baseline first (`withBaseline`).
   std::filesystem::path output;   ///< Folder in which finished runs are stored, and found again.
   std::size_t repetitions = 3;    ///< Timed passes over each sequence; 0: no times.
-  std::vector<fg::Extent> sizes;  ///< Also time all variants on synthetic frames of these sizes (`sizeTimes`).
   /// Number of variants that run in alternation, including the baseline, which runs in every batch. More variants need
   /// more device memory and lose more work when interrupted.
   std::size_t batch = 10;
-  bool hardCases = false;        ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
-  bool content = false;          ///< Also time all variants on different image content (`contentTimes`).
-  bool allPictures = false;      ///< Keep the images of all frames with a reference, not of `pictureFrames` only.
-  bool response = false;         ///< Also run all variants on the synthetic scenes (`responses`).
+  bool hardCases = false;    ///< Also run the hard cases of the arithmetic (`numerics`, `methodHardCases`).
+  bool allPictures = false;  ///< Keep the images of all frames with a reference, not of `pictureFrames` only.
+  bool response = false;     ///< Also run all variants on the synthetic scenes (`responses`).
 };
 
 /// Results of one sequence.
@@ -58,6 +53,14 @@ struct SequenceReport {
   std::vector<RunRecord> runs;  ///< In the order of the variants.
 };
 
+/// The device of the measurements.
+struct DeviceFacts {
+  std::string name;
+  std::string driver;
+  bool software = false;  ///< The device is a CPU implementation of Vulkan: its times do not predict those of a GPU.
+  double timestampNanoseconds = 0.0;  ///< Resolution of the timer; 0: none.
+};
+
 /// All results of a benchmark.
 struct BenchReport {
   BuildInfo build;
@@ -65,12 +68,9 @@ struct BenchReport {
   std::size_t repetitions = 0;
   std::vector<Variant> variants;
   std::map<std::string, std::vector<SettingValue>> settings;  ///< All settings of every variant, by variant name.
-  std::map<std::string, std::vector<PlanCosts>>
-      costs;  ///< At the sequences' sizes, `--sizes` and 720p to 4K; by variant name.
+  std::map<std::string, std::vector<PlanCosts>> costs;  ///< At the sequences' sizes and 720p to 4K; by variant name.
   std::vector<SequenceReport> sequences;
-  std::vector<SizeTimes> sizes;
-  std::vector<ContentTimes> contents;  ///< One per variant, or empty.
-  std::vector<Response> responses;     ///< One per variant, or empty.
+  std::vector<Response> responses;  ///< One per variant, or empty.
   std::vector<NumericsResult> numerics;
   std::vector<MethodHardCase> methodHardCases;
 };

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "samples/bench/or_null.h"
-#include "samples/bench/sweep.h"
 #include "samples/denoise/report.h"
 #include "samples/estimate/machine.h"
 #include "samples/estimate/shader_figures.h"
@@ -32,7 +31,6 @@ Json costsJson(const std::vector<PlanCosts>& costs) {
                     {"height", cost.extent.height},
                     {"bytes_read_per_pixel", cost.bytesReadPerPixel},
                     {"bytes_written_per_pixel", cost.bytesWrittenPerPixel},
-                    {"taps_per_pixel", orNull(cost.tapsPerPixel)},
                     {"persistent_bytes", cost.persistentBytes},
                     {"transient_unaliased_bytes", cost.transientUnaliasedBytes},
                     {"transient_peak_bytes", cost.transientPeakBytes},
@@ -49,8 +47,6 @@ Json variantsJson(const BenchReport& report) {
     list.push_back({{"name", variant.name},
                     {"method", variant.method},
                     {"preset", variant.preset},
-                    {"sweep", variant.sweep},
-                    {"is_default", isDefault(variant)},
                     {"settings", std::move(settings)},
                     {"costs", costsJson(report.costs.at(variant.name))}});
   }
@@ -77,27 +73,6 @@ Json sequenceJson(const SequenceReport& sequence) {
           {"width", sequence.extent.width}, {"height", sequence.extent.height},
           {"frames", std::move(frames)},    {"picture_frames", sequence.pictureFrames},
           {"runs", std::move(runs)}};
-}
-
-Json sizeJson(const SizeTimes& size) {
-  Json timings = Json::array();
-  for (const SizeTiming& timing : size.timings) {
-    Json object = {{"variant", timing.variant}};
-    addTiming(object, timing.timing);
-    object["why_not"] = timing.whyNot.empty() ? Json() : Json(timing.whyNot);
-    timings.push_back(std::move(object));
-  }
-  return {{"width", size.extent.width}, {"height", size.extent.height}, {"timings", std::move(timings)}};
-}
-
-Json contentJson(const ContentTimes& times) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < times.timings.size(); ++i) {
-    Json object = {{"content", contents()[i].name}};
-    addTiming(object, times.timings[i]);
-    list.push_back(std::move(object));
-  }
-  return {{"variant", times.variant}, {"timings", std::move(list)}};
 }
 
 Json cutJson(const CutResponse& cut) {
@@ -200,9 +175,7 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   document["device"] = {{"name", device.name},
                         {"driver", device.driver},
                         {"software", device.software},
-                        {"timestamp_ns", device.timestampNanoseconds},
-                        {"empty_pass_ms", device.timerMilliseconds ? toJson(*device.timerMilliseconds) : Json()},
-                        {"copy_bytes_per_second", orNull(device.copyBytesPerSecond)}};
+                        {"timestamp_ns", device.timestampNanoseconds}};
   const FigureTable& figures = shaderFigures();
   const Machine& machine = machineNamed(kDefaultMachine);
   document["estimate"] = {
@@ -220,10 +193,6 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   document["variants"] = variantsJson(report);
   document["sequences"] = Json::array();
   for (const SequenceReport& sequence : report.sequences) document["sequences"].push_back(sequenceJson(sequence));
-  document["sizes"] = Json::array();
-  for (const SizeTimes& size : report.sizes) document["sizes"].push_back(sizeJson(size));
-  document["contents"] = Json::array();
-  for (const ContentTimes& times : report.contents) document["contents"].push_back(contentJson(times));
   document["responses"] = Json::array();
   for (const Response& response : report.responses) document["responses"].push_back(responseJson(response));
   document["hard_cases"] = Json::array();

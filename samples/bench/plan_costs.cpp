@@ -4,7 +4,6 @@
 
 #include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
-#include "samples/bench/taps.h"
 #include "samples/bench/variant_estimate.h"
 
 namespace walr {
@@ -21,7 +20,6 @@ PlanCosts planCosts(const Variant& variant, fg::Extent extent, const InputConven
       .extent = extent,
       .bytesReadPerPixel = static_cast<double>(result.plan.traffic.bytesRead) / pixels,
       .bytesWrittenPerPixel = static_cast<double>(result.plan.traffic.bytesWritten) / pixels,
-      .tapsPerPixel = tapsPerPixel(declared.graph.desc(), result.plan, extent),
       .persistentBytes = memory.persistentBytes,
       .transientUnaliasedBytes = memory.transientUnaliasedBytes,
       .transientPeakBytes = memory.transientPeakBytes,

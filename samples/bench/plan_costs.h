@@ -21,7 +21,6 @@ struct PlanCosts {
   /// with perfect caches.
   double bytesReadPerPixel = 0.0;
   double bytesWrittenPerPixel = 0.0;
-  std::optional<double> tapsPerPixel;         ///< See `tapsPerPixel`.
   std::uint64_t persistentBytes = 0;          ///< Histories: both textures of each.
   std::uint64_t transientUnaliasedBytes = 0;  ///< Transient textures, if none were aliased.
   std::uint64_t transientPeakBytes = 0;       ///< Transient textures, with the plan's aliasing.

@@ -18,7 +18,7 @@ import numpy as np
 from PIL import Image
 from report_data import TABLE, Bench, number
 from report_plots import (conditioning_figure, frames_figure, hard_cases_figure, pareto_figure, phases_figure, plt,
-                          response_figure, svg, sweep_figure)
+                          response_figure, svg)
 
 
 def image(pixels, **options):
@@ -79,13 +79,12 @@ def methods_table(bench, sequence):
         ratio = bench.ratio(sequence, name)
         row.append(f"{ratio[0]:.2f} <small>({ratio[1]:.2f} to {ratio[2]:.2f})</small>" if ratio else "-")
         if bench.absolute and sequence:
-            row += [number(bench.milliseconds(sequence, name), 3), number(bench.bandwidth_share(sequence, name), 2)]
-        row += [f"{bench.bytes_per_pixel(sequence, name):.0f}", number(bench.cost(sequence, name)["taps_per_pixel"], 0),
-                number(bench.estimate(name), 0)]
+            row.append(number(bench.milliseconds(sequence, name), 3))
+        row += [f"{bench.bytes_per_pixel(sequence, name):.0f}", number(bench.estimate(name), 0)]
         rows.append(row)
     header = ["method"] + [label for _, label, _ in TABLE] + (["worst RMSE", "non-finite"] if sequence else [])
-    times = ["time ratio (5 to 95 %)"] + (["ms", "share of bandwidth"] if bench.absolute and sequence else [])
-    return table(header + times + ["bytes/pixel", "taps/pixel", "ESTIMATED GPU us"], rows,
+    times = ["time ratio (5 to 95 %)"] + (["ms"] if bench.absolute and sequence else [])
+    return table(header + times + ["bytes/pixel", "ESTIMATED GPU us"], rows,
                  f"{html.escape(sequence or 'Mean over the sequences')}: means over frames after the fourth; "
                  "bold: the best method with a spatial filter")
 
@@ -203,25 +202,6 @@ def pictures_section(bench, sequence, frame):
                                         quality=80))
         parts.append("</div>")
     return "".join(parts)
-
-
-def sweep_section(bench, sweep):
-    names = [v["name"] for v in bench.json["variants"] if v["sweep"] == sweep]
-    labels = [n.split("=", 1)[1] for n in names]
-    rows = []
-    for name, label in zip(names, labels):
-        row = [html.escape(label) + (" <small>(default)</small>" if bench.variants[name]["is_default"] else "")]
-        for sequence in bench.sequences:
-            row += [number(bench.mean(sequence, name, m), d) for m, _, d in TABLE if m in ("rmse", "ssim", "flip", "flicker")]
-            ratio = bench.ratio(sequence, name)
-            row.append(number(ratio and ratio[0], 2))
-        row.append(f"{bench.bytes_per_pixel(None, name):.0f}")
-        rows.append(row)
-    header = ["value"]
-    for sequence in bench.sequences:
-        header += [f"{html.escape(sequence)} RMSE", "SSIM", "FLIP", "flicker", "time ratio"]
-    return f"<h3>{html.escape(sweep)}</h3>" + svg(sweep_figure(bench, names, labels), sweep) + table(header + ["bytes/pixel"], rows,
-                                                                         "(default) and circles mark the default value")
 
 
 def response_section(bench):
@@ -352,56 +332,13 @@ def sequences_sections(bench, names):
     return out
 
 
-def size_section(bench, size):
-    """Times at one image size."""
-    timings = {t["variant"]: t for t in size["timings"]}
-    pixels = size["width"] * size["height"]
-    rows = []
-    for name in bench.methods:
-        timing, cost = timings[name], bench.cost_at(name, size["width"], size["height"])
-        ratio, time = timing["ratio"], timing["milliseconds"]
-        row = [html.escape(name)]
-        row.append(f"{ratio['median']:.2f} <small>({ratio['p5']:.2f} to {ratio['p95']:.2f})</small>" if ratio
-                   else html.escape(timing["why_not"] or "no timer"))
-        if bench.absolute:
-            row.append(f"{time['median']:.3f} <small>({time['p5']:.3f} to {time['p95']:.3f})</small>" if time else "-")
-            row.append(number(bench.share_of_bandwidth(cost, pixels, time and time["median"]), 2))
-        row.append("-" if cost is None else f"{cost['bytes_read_per_pixel'] + cost['bytes_written_per_pixel']:.0f}")
-        rows.append(row)
-    header = ["method", "time ratio (5 to 95 %)"] + (["ms", "share of bandwidth"] if bench.absolute else []) + ["bytes/pixel"]
-    title = f"{size['width']} x {size['height']}"
-    figure = phases_figure(bench, timings)
-    return (f"<h3>{title}</h3>" + table(header, rows, "two alternating frames of a wall and a slab in front of it")
-            + (svg(figure, f"phases {title}") if figure else ""))
-
-
-def content_section(bench):
-    """Times by image content, relative to the first content."""
-    contents = bench.json["contents"]
-    names = [t["content"] for t in contents[0]["timings"]]
-    rows = []
-    for entry in contents:
-        ratios = [t["ratio"] for t in entry["timings"]]
-        rows.append([html.escape(entry["variant"])] +
-                    [f"{r['median']:.2f} <small>({r['p5']:.2f} to {r['p95']:.2f})</small>" if r else "no timer"
-                     for r in ratios])
-    return table(["method"] + names, rows, "Median ratio (5 to 95 %) to the same method's time on the first content. "
-                 "wall: a wall and a slab that moves in front of it. fence: the same behind bars of one pixel, eight pixels "
-                 "apart. cuts: a camera cut in every frame. dark: no light. The others: sky in the upper half, in nine tenths, "
-                 "and in all of the image.")
-
-
 def page(bench):
     data, device = bench.json, bench.json["device"]
     out = [f"<!doctype html><html lang=en><meta charset=utf-8><title>walr bench</title><style>{STYLE}</style>",
            "<h1>Speed against error</h1>"]
-    bandwidth = device["copy_bytes_per_second"]
-    empty = device["empty_pass_ms"]
     out.append("<p>" + html.escape(
         f"{device['name']}, driver {device['driver']}. Commit {data['commit']}, {data['compiler']}, {data['build_type']}. "
-        + (f"Timer: resolution {device['timestamp_ns']:g} ns, an empty pass takes {1e3 * empty['median']:.1f} us. " if empty
-           else "The device has no timer. ")
-        + (f"Bandwidth of copies: {bandwidth / 1e9:.1f} GB/s (read plus written). " if bandwidth else "")
+        + (f"Timer: resolution {device['timestamp_ns']:g} ns. " if device["timestamp_ns"] else "The device has no timer. ")
         + f"Tone map {data['tone_map']}. {data['repetitions']} timed repetitions after one that warms up.") + "</p>"
         f"<p><code>{html.escape(data['command'])}</code></p>")
     if device["software"]:
@@ -415,17 +352,10 @@ def page(bench):
     if names:
         out += sequences_sections(bench, names)
     out.append("<h2>Traffic and memory</h2>" + costs_section(bench))
-    if data["sizes"]:
-        out.append("<h2>Time by size</h2>" + "".join(size_section(bench, size) for size in data["sizes"]))
-    if data["contents"]:
-        out.append("<h2>Time by content</h2>" + content_section(bench))
     if data["responses"]:
         out.append("<h2>Response to change</h2>" + response_section(bench))
     if data["hard_cases"]:
         out.append("<h2>Hard cases of the arithmetic</h2>" + hard_cases_section(bench))
-    sweeps = list(dict.fromkeys(v["sweep"] for v in data["variants"] if v["sweep"]))
-    if sweeps:
-        out.append("<h2>Sweeps</h2>" + "".join(sweep_section(bench, sweep) for sweep in sweeps))
     if names:
         out.append("<h2>Pictures</h2><p>Indirect light in the frame with the largest disocclusion, and in the last one. "
                    "This choice depends on the input alone.</p>")
@@ -442,12 +372,12 @@ def page(bench):
 def csv_table(bench):
     """Means, worst values, times and costs: a header, then one row per sequence and variant."""
     metrics = [m["name"] for m in bench.json["metrics"]]
-    costs = ("taps_per_pixel", "persistent_bytes", "transient_unaliased_bytes", "transient_peak_bytes")
-    yield ["sequence", "variant", "sweep", *(n for m in metrics for n in (m, "worst_" + m)), "non_finite", "time_ratio_median",
+    costs = ("persistent_bytes", "transient_unaliased_bytes", "transient_peak_bytes")
+    yield ["sequence", "variant", *(n for m in metrics for n in (m, "worst_" + m)), "non_finite", "time_ratio_median",
            "time_ratio_p5", "time_ratio_p95", "bytes_per_pixel", *costs, "estimated_microseconds_1080p"]
     for (sequence, variant), run in bench.runs.items():
         cost = bench.cost(sequence, variant)
-        yield [sequence, variant, bench.variants[variant]["sweep"],
+        yield [sequence, variant,
                *(run[kind][m] for m in metrics for kind in ("mean_after_4", "worst_after_4")),
                sum(f["non_finite"] for f in run["frames"]), *(bench.ratio(sequence, variant) or [None] * 3),
                bench.bytes_per_pixel(sequence, variant), *(cost[c] for c in costs), bench.estimate(variant)]

@@ -23,7 +23,7 @@ class Bench:
         self.variants = {v["name"]: v for v in self.json["variants"]}
         self.sequences = {s["name"]: s for s in self.json["sequences"]}
         self.runs = {(s["name"], r["variant"]): r for s in self.json["sequences"] for r in s["runs"]}
-        self.methods = [v["name"] for v in self.json["variants"] if not v["sweep"]]
+        self.methods = list(self.variants)
         # Methods without a spatial filter have so large errors that they would stretch every scale.
         self.filters = [n for n in self.methods if self.variants[n]["method"] not in ("none", "accumulate")]
         self.baseline = self.json["baseline"]
@@ -55,19 +55,6 @@ class Bench:
     def milliseconds(self, sequence, variant):
         time = self.runs[sequence, variant]["milliseconds"]
         return time and time["median"]
-
-    def share_of_bandwidth(self, cost, pixels, milliseconds):
-        """Bytes that the method moves according to its plan, divided by those that copies would move in the same time."""
-        copied = self.json["device"]["copy_bytes_per_second"]
-        if not (cost and milliseconds and copied):
-            return None
-        moved = (cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"]) * pixels
-        return moved / (milliseconds * 1e-3) / copied
-
-    def bandwidth_share(self, sequence, variant):
-        s = self.sequences[sequence]
-        return self.share_of_bandwidth(self.cost(sequence, variant), s["width"] * s["height"],
-                                       self.milliseconds(sequence, variant))
 
     def cost_at(self, variant, width, height):
         """The plan's costs at a size; None if they are not known."""

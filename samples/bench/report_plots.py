@@ -1,13 +1,12 @@
 """The plots of a benchmark's report, for report.py. Needs matplotlib."""
 import io
-import math
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-from report_data import COLOURS, ERRORS, SPARE_COLOURS, pareto  # noqa: E402
+from report_data import COLOURS, ERRORS, pareto  # noqa: E402
 
 MARKERS = "osD^vP*X"
 plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
@@ -190,33 +189,6 @@ def phases_figure(bench, timings):
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=7.5)
     axes.grid(axis="y", visible=False)
     axes.set_xlabel(f"median time in units of {bench.baseline}'s (processor)" if software else "median time in ms")
-    return figure
-
-
-def sweep_figure(bench, names, labels):
-    """Each metric over the values of a sweep; the default is circled."""
-    panels = [("rmse", "RMSE"), ("ssim", "1 - SSIM"), ("flip", "FLIP"), ("flicker", "flicker"), ("time", "time ratio"),
-              ("bytes", "bytes/pixel")]
-    figure, axes = plt.subplots(1, len(panels), figsize=(13, 2.3))
-    figure.subplots_adjust(wspace=0.42)
-    for axis, (metric, label) in zip(axes, panels):
-        for index, sequence in enumerate(bench.sequences):
-            if metric == "time":
-                values = [bench.ratio(sequence, n) and bench.ratio(sequence, n)[0] for n in names]
-            elif metric == "bytes":
-                values = [bench.bytes_per_pixel(sequence, n) for n in names]
-            else:
-                values = [bench.error(sequence, n, metric) for n in names]
-            values = [math.nan if v is None else v for v in values]
-            axis.plot(labels, values, "o-", ms=4, lw=1.2, color=SPARE_COLOURS[index % len(SPARE_COLOURS)], label=sequence)
-            for i, name in enumerate(names):
-                if bench.variants[name]["is_default"]:
-                    axis.plot(labels[i], values[i], "o", ms=9, mfc="none", color="black")
-        axis.set_title(label, loc="left", fontsize=9, fontweight="bold")
-        axis.tick_params(axis="x", rotation=45, labelsize=7)
-        axis.tick_params(axis="y", labelsize=7)
-        axis.set_ylim(bottom=0)
-    axes[0].legend(fontsize=6.5, loc="lower left")
     return figure
 
 

@@ -57,17 +57,6 @@ Json toJson(const Spread& spread) {
   return {{"median", spread.median}, {"p5", spread.p5}, {"p95", spread.p95}};
 }
 
-void timeBeside(std::vector<TimedLane>& lanes, std::size_t repetitions, const std::function<void()>& frameDone) {
-  for (std::size_t i = 0; i < kFramesPerRepetition * (1 + repetitions); ++i) {
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-      TimedLane& now = lanes[(i + lane) % lanes.size()];
-      const DenoisedPicture picture = now.denoiser.run((*now.frames)[i % now.frames->size()]);
-      if (i >= kFramesPerRepetition) now.times.add(picture.passes);
-    }
-    frameDone();
-  }
-}
-
 void addTiming(Json& object, const Timing& timing) {
   object["timed_frames"] = timing.frames;
   object["milliseconds"] = spreadOrNull(timing.milliseconds);

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,9 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "framegraph/vulkan/executor.h"
 #include "samples/bench/spread.h"
-#include "samples/denoise/gpu_denoiser.h"
-#include "samples/denoise/packed_frame.h"
 
 namespace walr {
 
@@ -46,22 +43,6 @@ class FrameTimes {
   std::vector<std::string> names_;           ///< Indexed by pass.
   std::vector<std::vector<double>> passes_;  ///< Indexed by pass, then by frame.
 };
-
-/// A denoiser that is timed on two alternating frames.
-struct TimedLane {
-  GpuDenoiser denoiser;
-  const std::array<PackedFrame, 2>* frames;
-  FrameTimes times = {};
-};
-
-/// Number of frames in each repetition of `timeBeside`.
-inline constexpr std::size_t kFramesPerRepetition = 8;
-
-/// Time denoisers in alternation, after one repetition that warms up. Their order rotates from frame to frame, so that
-/// drift of the machine affects all alike.
-/// @param frameDone  called after all denoisers have run a frame: `kFramesPerRepetition` x (1 + repetitions) times
-/// @throws fg::vk::Error when the device fails
-void timeBeside(std::vector<TimedLane>& lanes, std::size_t repetitions, const std::function<void()>& frameDone);
 
 /// Write `timed_frames`, `milliseconds`, `ratio` and `passes` to a JSON object, and read them back.
 /// @throws nlohmann::json::exception from `timingFromJson` if a member is missing

@@ -23,7 +23,7 @@ std::pair<std::string, std::string> splitOnce(const std::string& text, char sepa
 
 Variant methodVariant(const std::string& text) {
   const auto [method, preset] = splitOnce(text, ':');
-  Variant variant{.name = text, .method = method, .preset = preset, .settings = {}, .sweep = {}};
+  Variant variant{.name = text, .method = method, .preset = preset, .settings = {}};
   makeVariant(variant);
   return variant;
 }
@@ -80,11 +80,7 @@ std::vector<SettingValue> settingsOf(const Variant& variant) {
   return values;
 }
 
-std::vector<Variant> withBaseline(std::vector<Variant> variants) {
-  const Variant baseline = methodVariant(std::string(kBaseline));
-  const auto found = std::ranges::find(variants, baseline);
-  if (found != variants.end()) variants.erase(found);
-  variants.insert(variants.begin(), baseline);
+void requireDistinctNames(const std::vector<Variant>& variants) {
   for (std::size_t i = 0; i < variants.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (variants[i].name != variants[j].name) continue;
@@ -95,6 +91,14 @@ std::vector<Variant> withBaseline(std::vector<Variant> variants) {
       throw std::invalid_argument("'" + variants[i].name + "' is given twice");
     }
   }
+}
+
+std::vector<Variant> withBaseline(std::vector<Variant> variants) {
+  const Variant baseline = methodVariant(std::string(kBaseline));
+  const auto found = std::ranges::find(variants, baseline);
+  if (found != variants.end()) variants.erase(found);
+  variants.insert(variants.begin(), baseline);
+  requireDistinctNames(variants);
   return variants;
 }
 

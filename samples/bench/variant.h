@@ -15,11 +15,10 @@ using SettingValue = std::pair<std::string, std::string>;
 
 /// A method with settings, under a name: one row of the report's tables.
 struct Variant {
-  std::string name;  ///< Letters, digits and . : = - _ only, because it is part of file names.
+  std::string name;  ///< Letters, digits and . : - _ only, because it is part of file names.
   std::string method;
   std::string preset;                  ///< Empty: the method's first.
   std::vector<SettingValue> settings;  ///< Changes to the preset.
-  std::string sweep;                   ///< The sweep that it belongs to; empty: none.
 
   friend bool operator==(const Variant&, const Variant&) = default;
 };
@@ -45,6 +44,9 @@ std::unique_ptr<Denoiser> makeVariant(const Variant& variant);
 /// All settings of a variant with their values.
 /// @throws std::invalid_argument as `makeVariant`
 std::vector<SettingValue> settingsOf(const Variant& variant);
+
+/// @throws std::invalid_argument if two variants have the same name
+void requireDistinctNames(const std::vector<Variant>& variants);
 
 /// Move the baseline to the front; add it if it is missing.
 /// @throws std::invalid_argument if two variants have the same name

@@ -13,7 +13,6 @@
 #include "samples/bench/bench.h"
 #include "samples/bench/bench_report.h"
 #include "samples/bench/html_report.h"
-#include "samples/bench/sweep.h"
 #include "samples/bench/variant.h"
 #include "samples/cli/command.h"
 #include "samples/cli/command_line.h"
@@ -32,10 +31,8 @@ struct BenchArguments {
   std::vector<std::filesystem::path> sequences;
   std::string methods = "all";
   std::vector<std::string> variants;
-  std::vector<std::string> sweeps;
   std::string frames;
   SequenceOptions sequence;
-  std::vector<std::string> sizes;
   GpuDevice::Options gpu;
   BenchOptions bench;
   bool noHtml = false;
@@ -47,9 +44,6 @@ std::vector<Variant> chosenVariants(const BenchArguments& arguments) {
   try {
     std::vector<Variant> variants = parseMethods(arguments.methods);
     for (const std::string& text : arguments.variants) variants.push_back(parseVariant(text));
-    for (const std::string& sweep : arguments.sweeps) {
-      for (Variant& variant : sweepVariants(sweep)) variants.push_back(std::move(variant));
-    }
     return withBaseline(std::move(variants));
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
@@ -80,15 +74,9 @@ void requireUsable(const std::vector<Variant>& variants, const std::vector<Named
 }
 
 void runBench(BenchArguments& arguments, const std::string& command) {
-  if (arguments.sequences.empty() && arguments.sizes.empty() && !arguments.bench.content && !arguments.bench.response &&
-      !arguments.bench.hardCases) {
-    throw UsageError("nothing to measure: give --sequences DIR..., --sizes, --content, --response or --hard-cases");
+  if (arguments.sequences.empty() && !arguments.bench.response && !arguments.bench.hardCases) {
+    throw UsageError("nothing to measure: give --sequences DIR..., --response or --hard-cases");
   }
-  if (arguments.bench.repetitions == 0 && (!arguments.sizes.empty() || arguments.bench.content)) {
-    throw UsageError(
-        "--repeat 0 measures errors only, but --sizes and --content measure times: give --repeat 1 or more");
-  }
-  for (const std::string& size : arguments.sizes) arguments.bench.sizes.push_back(parseSize(size, "--sizes"));
   arguments.bench.variants = chosenVariants(arguments);
   refuseOutputIntoInput(arguments);
   arguments.sequence.nonFinite = NonFinitePolicy::Replace;
@@ -110,12 +98,6 @@ void runBench(BenchArguments& arguments, const std::string& command) {
   std::cout << (trouble.empty() ? "report: " + (output / "report.html").string() : trouble) << std::endl;
 }
 
-std::string sweepHelp() {
-  std::string text = "Also run a sweep over values of a method's settings; repeatable; 'all' for all of them. Sweeps:";
-  for (const Sweep& sweep : sweeps()) text += "\n  " + std::string(sweep.name) + ": " + std::string(sweep.question);
-  return text;
-}
-
 }  // namespace
 
 void registerBench(CLI::App& program) {
@@ -124,8 +106,8 @@ void registerBench(CLI::App& program) {
       "bench", "Measure speed against error: methods and settings on the same frames, in alternation");
   command
       ->add_option("--sequences", arguments->sequences,
-                   "Folders of frames with references (samples/docs/sequences.md); optional with --sizes, --content, "
-                   "--response or --hard-cases")
+                   "Folders of frames with references (samples/docs/sequences.md); optional with --response or "
+                   "--hard-cases")
       ->type_name("DIR...");
   command
       ->add_option(
@@ -145,22 +127,9 @@ void registerBench(CLI::App& program) {
                    "Also run a method with these settings under this name; repeatable")
       ->allow_extra_args(false)
       ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
-  command->add_option("--sweep", arguments->sweeps, sweepHelp())->type_name("NAME");
   command->add_option("--frames", arguments->frames, "First and last frame; default: all")->type_name("A-B");
   addMotionDepth(*command, arguments->sequence);
   addLightRate(*command, arguments->sequence.keptLight, kKeptLightHelp);
-  command
-      ->add_option(
-          "--sizes", arguments->sizes,
-          "Also time every variant, pass by pass, on synthetic frames of these sizes, separated by commas. If a "
-          "size does not fit into device memory, the report says so")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("WIDTHxHEIGHT,...");
-  command->add_flag(
-      "--content", arguments->bench.content,
-      "Also time every variant on images with different content: a wall, a fence, no light, more and more "
-      "sky");
   command->add_flag("--hard-cases", arguments->bench.hardCases,
                     "Also run every method, and the regression of walr_paper with every storage of moments and every "
                     "solver, on frames that are numerically hard: error against the known truth, non-finite values");
@@ -188,13 +157,7 @@ void registerBench(CLI::App& program) {
       ->type_name("FILE")
       ->capture_default_str();
   command->footer(kExitCodeHelp);
-  command->callback([arguments, command, &program] {
-    if (arguments->sweeps == std::vector<std::string>{"all"}) {
-      arguments->sweeps.clear();
-      for (const Sweep& sweep : sweeps()) arguments->sweeps.emplace_back(sweep.name);
-    }
-    runBench(*arguments, commandLine(program, *command));
-  });
+  command->callback([arguments, command, &program] { runBench(*arguments, commandLine(program, *command)); });
 }
 
 }  // namespace walr

@@ -32,15 +32,19 @@ constexpr std::string_view kSlowMethod = "refwlr";
 struct GpuReportArguments {
   GpuReportOptions report;
   std::string methods = "usual";
+  std::vector<std::string> variants;
   std::vector<std::string> sizes;
   std::filesystem::path sequence;
 };
 
-std::vector<Variant> chosenVariants(const std::string& methods) {
+std::vector<Variant> chosenVariants(const GpuReportArguments& arguments) {
   try {
-    if (methods != "usual") return parseMethods(methods);
-    std::vector<Variant> variants = allMethods();
-    std::erase_if(variants, [](const Variant& variant) { return variant.method == kSlowMethod; });
+    std::vector<Variant> variants = parseMethods(arguments.methods == "usual" ? "all" : arguments.methods);
+    if (arguments.methods == "usual") {
+      std::erase_if(variants, [](const Variant& variant) { return variant.method == kSlowMethod; });
+    }
+    for (const std::string& text : arguments.variants) variants.push_back(parseVariant(text));
+    requireDistinctNames(variants);
     return variants;
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
@@ -82,7 +86,7 @@ void refuseErrors(const GpuReport& report) {
 
 void runGpuReport(GpuReportArguments& arguments, const std::string& command) {
   GpuReportOptions& options = arguments.report;
-  options.variants = chosenVariants(arguments.methods);
+  options.variants = chosenVariants(arguments);
   options.sizes = chosenSizes(arguments);
   requireMachine(options.machine);
   refuseOwnFolders(arguments);
@@ -121,6 +125,11 @@ void registerGpuReport(CLI::App& program) {
                    "frame; or 'all'")
       ->type_name("LIST|usual|all")
       ->capture_default_str();
+  command
+      ->add_option("--variant", arguments->variants,
+                   "Also a method with these settings under this name; repeatable. It has no estimates")
+      ->allow_extra_args(false)
+      ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
   command
       ->add_option(
           "--sizes", arguments->sizes,

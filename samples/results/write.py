@@ -5,7 +5,7 @@
     write.py --check                fails if a page differs from what the figures give
     write.py corpus NAME FOLDER     records a run of samples/corpus/corpus.py; NAME is the height of its pictures, such as 1080
     write.py cycles FOLDER          records the comparison of methods in FOLDER/bench.json, and its pictures
-    write.py costs FOLDER           records only the bytes, taps and memory of these methods, after a change of no result
+    write.py costs FOLDER           records only the bytes and memory of these methods, after a change of no result
     write.py gpu FOLDER             records the times in FOLDER/gpu_report.json
 
 Each of the last four then writes everything anew. figures.py and samples/corpus/rates.py record what they measure themselves. Plots

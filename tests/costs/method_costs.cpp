@@ -7,7 +7,6 @@
 #include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
 #include "passes/methods/denoiser.h"
-#include "samples/bench/taps.h"
 #include "samples/estimate/frame_estimate.h"
 #include "samples/estimate/plan_work.h"
 
@@ -100,12 +99,7 @@ MethodCosts methodCosts(const MethodName& name, fg::Extent extent, NullDevice& d
 
   MethodCosts costs = {name, extent, {}};
   for (const PassWork& work : workOf(graph, result.plan)) {
-    PassCosts& pass = costs.passes.emplace_back(costsOf(work, device, trips));
-    pass.taps = 0.0;
-    for (const std::size_t planned : work.planned) {
-      const auto taps = tapsPerPixel(graph, result.plan.passes[planned], extent);
-      pass.taps = pass.taps && taps ? std::optional(*pass.taps + *taps) : std::nullopt;
-    }
+    costs.passes.push_back(costsOf(work, device, trips));
   }
   return costs;
 }

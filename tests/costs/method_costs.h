@@ -41,8 +41,7 @@ struct PassCosts {
   std::uint64_t fetchInstructions = 0;
   std::uint64_t groups = 0;
   std::uint64_t threads = 0;
-  std::uint64_t bytes = 0;     ///< Of the plan: each texel that the pass accesses once.
-  std::optional<double> taps;  ///< A pixel of the picture; nothing where the taps of a shader are not known.
+  std::uint64_t bytes = 0;  ///< Of the plan: each texel that the pass accesses once.
   std::size_t loops = 0;
   std::optional<WaveCounts> wave;  ///< Nothing where the trip counts of the shader's loops are not known.
 

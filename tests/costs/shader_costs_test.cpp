@@ -109,7 +109,6 @@ TEST_F(ShaderCostsOfTheDefault, CoverThePlan) {
     EXPECT_GT(pass.threads, 0U) << pass.pass;
     EXPECT_GT(pass.compiled.instructions, 0U) << pass.pass;
     EXPECT_GT(pass.compiled.vectorRegisters, 0U) << pass.pass;
-    EXPECT_TRUE(pass.taps.has_value()) << pass.pass;
   }
 }
 

@@ -15,11 +15,10 @@ using Row = std::vector<std::string>;
 constexpr const char* kUnknown = "-";
 
 // As `rowOf` fills them in.
-constexpr std::array<std::string_view, 22> kColumns = {
-    "pass",    "batch",      "shader",        "threads",        "groups",       "VGPRs",
-    "LDS",     "spills",     "scratch",       "waves",          "instructions", "branches",
-    "fetches", "ACO cycles", "vector a wave", "fetches a wave", "waits a wave", "cycles a pixel",
-    "MB",      "taps",       "ESTIMATE us",   "bound by"};
+constexpr std::array<std::string_view, 21> kColumns = {
+    "pass",          "batch",          "shader",       "threads",        "groups",   "VGPRs",       "LDS",
+    "spills",        "scratch",        "waves",        "instructions",   "branches", "fetches",     "ACO cycles",
+    "vector a wave", "fetches a wave", "waits a wave", "cycles a pixel", "MB",       "ESTIMATE us", "bound by"};
 
 std::string fixed(double value, int digits) {
   std::ostringstream text;
@@ -56,21 +55,13 @@ Row rowOf(const PassCosts& pass, const MethodCosts& method, const Machine& machi
           weighed(&WaveCounts::waits),
           fixed(method.cyclesPerPixel(pass), 1),
           fixed(static_cast<double>(pass.bytes) * 1e-6, 1),
-          fixed(pass.taps, 1),
           bounds ? fixed(bounds->largest(), 1) : kUnknown,
           bounds ? std::string(bounds->nameOfLargest()) : kUnknown};
 }
 
 Row sumsOf(const MethodCosts& method, const Machine& machine) {
   double bytes = 0.0;
-  std::optional<double> taps = 0.0;
-  const auto add = [](std::optional<double>& sum, const std::optional<double>& value) {
-    sum = sum && value ? std::optional(*sum + *value) : std::nullopt;
-  };
-  for (const PassCosts& pass : method.passes) {
-    bytes += static_cast<double>(pass.bytes);
-    add(taps, pass.taps);
-  }
+  for (const PassCosts& pass : method.passes) bytes += static_cast<double>(pass.bytes);
   Row row(kColumns.size());
   const auto set = [&row](std::string_view column, const std::string& text) {
     row[static_cast<std::size_t>(std::ranges::find(kColumns, column) - kColumns.begin())] = text;
@@ -78,7 +69,6 @@ Row sumsOf(const MethodCosts& method, const Machine& machine) {
   set("pass", "**sum**");
   set("cycles a pixel", fixed(method.cyclesPerPixel(), 1));
   set("MB", fixed(bytes * 1e-6, 1));
-  set("taps", fixed(taps, 1));
   set("ESTIMATE us", fixed(method.microseconds(machine), 1));
   return row;
 }

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "samples/bench/content_times.h"
+#include "samples/bench/bench_report.h"
 #include "samples/bench/response_scene.h"
 #include "tests/samples/bench_schema.h"
 
@@ -49,28 +47,6 @@ TEST(ResponseScene, TheSlabCarriesItsMotionAndUncoversTheWall) {
     EXPECT_EQ(before.age[source], -1) << "pixel " << x;
   }
   EXPECT_EQ(moving, kExtent.width / 4);
-}
-
-TEST(Contents, HoldWhatTheirNamesSay) {
-  static constexpr fg::Extent kPicture{64, 40};
-  const auto skyShare = [](const Content& content) {
-    const Image depth = content.frame(kPicture, 8).frame.depth;
-    return static_cast<double>(std::ranges::count(depth.values(), kBackgroundDepth)) / depth.pixelCount();
-  };
-  std::map<std::string_view, double> shares;
-  for (const Content& content : contents()) shares[content.name] = skyShare(content);
-  EXPECT_EQ(shares, (std::map<std::string_view, double>{{"wall", 0.0},
-                                                        {"fence", 0.0},
-                                                        {"cuts", 0.0},
-                                                        {"dark", 0.0},
-                                                        {"half sky", 0.5},
-                                                        {"mostly sky", 0.9},
-                                                        {"sky", 1.0}}));
-  const auto cuts = std::ranges::find(contents(), std::string_view("cuts"), &Content::name);
-  const Image before = cuts->frame(kPicture, 8).frame.depth;
-  const Image after = cuts->frame(kPicture, 9).frame.depth;
-  // This holds even where the slab, at half the wall's depth, arrives or leaves.
-  for (std::size_t i = 0; i < before.pixelCount(); ++i) EXPECT_GT(after.pixel(i)[0], 1.2F * before.pixel(i)[0]);
 }
 
 /// The age at which a moving Gaussian is nearest to its exponential mean over time. The squared distance is smallest

@@ -13,9 +13,7 @@
 #include "samples/bench/npy.h"
 #include "samples/bench/plan_costs.h"
 #include "samples/bench/run_record.h"
-#include "samples/bench/size_times.h"
 #include "samples/bench/spread.h"
-#include "samples/bench/sweep.h"
 #include "samples/bench/variant.h"
 #include "samples/errors.h"
 #include "samples/image/fingerprint.h"
@@ -123,63 +121,12 @@ TEST(Variants, BeginWithTheBaseline) {
   EXPECT_EQ(withBaseline(parseMethods("bmfr,walr")).size(), 2U);
 }
 
-TEST(Sweeps, HoldSettingsThatExist) {
-  EXPECT_FALSE(sweeps().empty());
-  std::set<std::string> names;
-  for (const Sweep& sweep : sweeps()) {
-    for (const Variant& variant : sweepVariants(sweep.name)) {
-      SCOPED_TRACE(variant.name);
-      EXPECT_TRUE(names.insert(variant.name).second);
-      // Declares and compiles the whole graph, so that invalid combinations of settings are found, too.
-      EXPECT_GT(planCosts(variant, {64, 48}, {}).bytesReadPerPixel, 0.0);
-    }
-  }
-  expectError<std::exception>([] { sweepVariants("magic"); }, {"known sweeps: iterations"});
-}
-
-TEST(Sweeps, HoldTheDefaultOnce) {
-  for (const Sweep& sweep : sweeps()) {
-    EXPECT_EQ(std::ranges::count_if(sweepVariants(sweep.name), isDefault), 1) << sweep.name;
-  }
-}
-
-TEST(Sweeps, TellTheDefaultFromOtherSettings) {
-  EXPECT_TRUE(isDefault(parseVariant("mine=walr")));
-  EXPECT_TRUE(isDefault(parseVariant("mine=bmfr:paper")));
-  EXPECT_FALSE(isDefault(parseVariant("mine=walr,blocks.size=4")));
-}
-
 TEST(PlanCostsTest, OfACopyAreItsTexels) {
   // Reads and writes one RGBA16F texel per pixel, and has no history.
   const PlanCosts costs = planCosts(parseMethods("none").front(), {64, 48}, {});
   EXPECT_EQ(costs.bytesReadPerPixel, 8.0);
   EXPECT_EQ(costs.bytesWrittenPerPixel, 8.0);
   EXPECT_EQ(costs.persistentBytes + costs.transientPeakBytes, 0U);
-}
-
-TEST(PlanCostsTest, TapsAreTheWindowsOfTheStages) {
-  const auto taps = [](const char* method) {
-    return planCosts(parseMethods(method).front(), {320, 180}, {}).tapsPerPixel;
-  };
-  constexpr double kAntialiasing = 16 + 1 + 3 * 3;  // Bicubic history, the pixel itself, the clipping's neighbourhood.
-  EXPECT_EQ(taps("none"), 1.0);
-  EXPECT_EQ(taps("accumulate"), 1.0 + 4.0 + 1.0);  // Sample, bilinear history, copy.
-  // 33 x 33 for its default radius, 7 x 7 for its clipping.
-  EXPECT_EQ(taps("joint_bilateral"), 33.0 * 33.0 + 16 + 1 + 7 * 7);
-  EXPECT_EQ(taps("bmfr"), 5.0 + 1.0 + 5.0 + kAntialiasing);
-  // An iteration of WALR is 3 x 3 taps (Meunier & Harada 2022, 3.2).
-  const auto walr = [](const char* iterations) {
-    const std::string text =
-        std::string("w=walr_paper:robust,walr_paper.fit-window=off,regression.iterations=") + iterations;
-    return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
-  };
-  EXPECT_EQ(walr("4") - walr("2"), 18.0);
-  // Over blocks of 4 x 4 pixels an iteration is a sixteenth of that.
-  const auto blocks = [](const char* iterations) {
-    const std::string text = std::string("w=walr,blocks.size=4,walr.fit-window=off,blocks.iterations=") + iterations;
-    return *planCosts(parseVariant(text), {320, 180}, {}).tapsPerPixel;
-  };
-  EXPECT_EQ(blocks("4") - blocks("2"), 18.0 / 16.0);
 }
 
 TEST(PlanCostsTest, SharedMemoryIsNoLargerThanUnshared) {
@@ -255,21 +202,6 @@ TEST_F(BenchFrameTest, HalvesOfTheReferenceTellItsNoise) {
   const std::optional<double> noise = survey(open()).front().referenceNoise;
   ASSERT_TRUE(noise.has_value());
   EXPECT_GT(*noise, 0.0);
-}
-
-TEST(SizeTimesTest, SaysWhatDoesNotRun) {
-  const GpuDevice device({.device = {}, .validation = true});
-  const std::vector<Variant> variants = {parseVariant("none=none"), parseVariant("fine=flr,regression.factor=1")};
-  int frames = 0;
-  // One cell per pixel takes 128 bytes in a buffer; Vulkan guarantees buffers of 2^27 bytes only.
-  const SizeTimes times = sizeTimes(device, variants, {1025, 1024}, 1, [&] { ++frames; });
-  EXPECT_EQ(frames, 2 * static_cast<int>(kFramesPerRepetition));
-  ASSERT_EQ(times.timings.size(), 2U);
-  EXPECT_EQ(times.timings[0].timing.frames, kFramesPerRepetition);
-  EXPECT_EQ(times.timings[0].timing.ratio.value().median, 1.0);
-  EXPECT_TRUE(times.timings[0].whyNot.empty());
-  EXPECT_EQ(times.timings[1].timing.frames, 0U);
-  EXPECT_NE(times.timings[1].whyNot.find("regression.factor"), std::string::npos) << times.timings[1].whyNot;
 }
 
 TEST(PictureFrames, AreTheLastAndTheHardestAfterHistoryHasBuiltUp) {

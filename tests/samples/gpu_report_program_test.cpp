@@ -138,16 +138,21 @@ TEST_F(GpuReportProgramTest, TakesASequence) {
   const fs::path input = directory.path() / "wall";
   fs::create_directory(input);
   test::SyntheticSequence(input, 40, 32).write(0, 3);
-  expectSuccess(report(first, {"--methods", "accumulate", "--sequence", input.string(), "--sizes", "64x36"}));
+  expectSuccess(report(first, {"--methods", "accumulate", "--variant", "once=accumulate,accumulation.max-history=1",
+                               "--sequence", input.string(), "--sizes", "64x36"}));
   const json data = read(first);
   EXPECT_EQ(data["times"][0]["content"], "sequence");
   EXPECT_EQ(data["times"][0]["width"], 40);
   EXPECT_GT(data["times"][0]["methods"][0]["milliseconds"]["median"], 0.0);
   EXPECT_EQ(agreement(data, "accumulate", "sequence")["rms_difference"], 0.0);
+  EXPECT_EQ(data["times"][0]["methods"][1]["variant"], "once");
+  EXPECT_NE(agreement(data, "once", "sequence")["hash"], agreement(data, "accumulate", "sequence")["hash"]);
 }
 
 TEST_F(GpuReportProgramTest, WhatIsWrongIsNamedBeforeAnythingIsWritten) {
   expectFailure(report(first, {"--methods", "magic"}), kUsage, {"magic"});
+  expectFailure(report(first, {"--methods", "flr", "--variant", "flr=svgf"}), kUsage, {"'flr'"});
+  expectFailure(report(first, {"--variant", "x=walr,magic=1"}), kUsage, {"magic"});
   expectFailure(report(first, {"--machine", "abacus"}), kUsage, {"'abacus'", "w6800", "h200"});
   expectFailure(report(first, {"--sizes", "64"}), kUsage, {"--sizes 64"});
   expectFailure(report(first, {"--against", (directory.path() / "nowhere").string()}), kUsage, {"nowhere"});

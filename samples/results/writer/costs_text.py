@@ -1,4 +1,4 @@
-"""What pages say of the costs of methods: times on a GPU, estimates, bytes, taps and memory."""
+"""What pages say of the costs of methods: times on a GPU, estimates, bytes and memory."""
 import json
 
 from gpu_page import gpu_term, gpu_time
@@ -6,7 +6,7 @@ from markdown_text import number
 from records import RESULTS
 
 FIGURES_FILE, MACHINES_FILE = (RESULTS.parent / "estimate" / f"{name}.json" for name in ("shader_figures", "machines"))
-HEADINGS = ("GPU time, ms", "estimated GPU time, us", "bytes per pixel", "taps per pixel", "memory, MB")
+HEADINGS = ("GPU time, ms", "estimated GPU time, us", "bytes per pixel", "memory, MB")
 
 
 def estimated_times():
@@ -15,9 +15,8 @@ def estimated_times():
 
 
 def cells(name, costs, gpu, estimates):
-    """Cells below HEADINGS. costs: bytes, taps and megabytes of the method."""
-    return [gpu_time(gpu, name), number(estimates.get(name), 0), f"{costs['bytes']:.0f}",
-            "-" if costs["taps"] is None else f"{costs['taps']:.0f}", f"{costs['megabytes']:.0f}"]
+    """Cells below HEADINGS. costs: bytes and megabytes of the method."""
+    return [gpu_time(gpu, name), number(estimates.get(name), 0), f"{costs['bytes']:.0f}", f"{costs['megabytes']:.0f}"]
 
 
 def terms(gpu):
@@ -28,7 +27,6 @@ def terms(gpu):
   It is an estimate by a static model, and no measurement: for each pass the largest of what the plan's bytes, the instructions and
   the fetches of the compiled shader, and its waits take at the GPU's peak rates (see `tests/costs/README.md`). It is that of
   the shaders of this commit, also where the other columns were measured at an earlier one.
-* **Bytes**, **taps** and **memory** are those of the compiled graph at 1920 x 1080 and hold on any device. Bytes: every texel that a
-  pass reads or writes, once. Taps: fetches of light, of its history and of averages of it. Memory: histories and
-  transient textures, which alias each other, without the textures of the host.
+* **Bytes** and **memory** are those of the compiled graph at 1920 x 1080 and hold on any device. Bytes: every texel that a pass
+  reads or writes, once. Memory: histories and transient textures, which alias each other, without the textures of the host.
 """

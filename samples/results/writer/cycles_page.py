@@ -110,4 +110,4 @@ At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driv
 def costs_note(kept):
     if "costs_commit" not in kept:
         return ""
-    return f"\nBytes, taps and memory are those of commit {kept['costs_commit']}. No change between the two commits alters a picture of these sequences.\n"
+    return f"\nBytes and memory are those of commit {kept['costs_commit']}. No change between the two commits alters a picture of these sequences.\n"

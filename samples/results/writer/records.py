@@ -63,7 +63,7 @@ def costs_at_1080p(variant):
     cost = next((c for c in variant["costs"] if (c["width"], c["height"]) == (1920, 1080)), None)
     if cost is None:
         sys.exit(f"bench.json has no costs of {variant['name']} at 1920 x 1080")
-    return {"bytes": round(cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"], 1), "taps": rounded(cost["taps_per_pixel"], 1),
+    return {"bytes": round(cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"], 1),
             "megabytes": round((cost["persistent_bytes"] + cost["transient_peak_bytes"]) / 1e6, 1)}
 
 
@@ -75,8 +75,7 @@ def keep_methods(data):
             "device": data["device"]["name"], "driver": data["device"]["driver"], "software": data["device"]["software"],
             "noise": {}, "methods": {}}
     for variant in data["variants"]:
-        if not variant["sweep"]:
-            kept["methods"][variant["name"]] = {**costs_at_1080p(variant), "sequences": {}}
+        kept["methods"][variant["name"]] = {**costs_at_1080p(variant), "sequences": {}}
     for sequence in data["sequences"]:
         noise = [f["reference_noise"] for f in sequence["frames"]]
         kept["noise"][sequence["name"]] = None if None in noise else rounded(mean(noise))
@@ -94,7 +93,7 @@ def keep_methods(data):
 
 def keep_costs(data, kept):
     """The comparison that is kept, with the costs of another run and its commit."""
-    costs = {v["name"]: costs_at_1080p(v) for v in data["variants"] if not v["sweep"]}
+    costs = {v["name"]: costs_at_1080p(v) for v in data["variants"]}
     missing = [name for name in kept["methods"] if name not in costs]
     if missing:
         sys.exit(f"bench.json lacks {listed(missing)}")
