@@ -35,7 +35,9 @@ void checkLight(const LightPattern& light, const HostConventions& host) {
 /// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
   const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
-  if (input.texture == &DenoiserInputs::lighting && conventions.light.hasAlpha()) return 4;
+  if (input.texture == &DenoiserInputs::lighting && (conventions.light.hasAlpha() || conventions.specular)) {
+    return 4;
+  }
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;
@@ -57,6 +59,10 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
     const bool isLight = input.texture == &DenoiserInputs::lighting;
     const fg::Extent size = isLight ? conventions.light.lightingExtent(extent) : extent;
     inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = size}, state);
+  }
+  if (conventions.specular) {
+    inputs.roughness =
+        graph.import(std::string(kRoughnessName), {.format = VK_FORMAT_R8_UNORM, .extent = extent}, state);
   }
   inputs.frame = graph.upload(std::string(kFrameName), sizeof(FrameConstants));
   inputs.conventions = conventions;

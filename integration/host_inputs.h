@@ -25,10 +25,11 @@ extern const std::array<HostInput, 7> kHostInputs;
 /// The input with a name; null if there is none.
 const HostInput* hostInputNamed(std::string_view name);
 
-/// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, and of the first light's
-/// textures; those of another light have `LightNames::images` before them.
+/// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, of `DenoiserInputs::roughness`,
+/// and of the first light's textures; those of another light have `LightNames::images` before them.
 inline constexpr std::string_view kFrameName = "frame";
 inline constexpr std::string_view kHostName = "host";
+inline constexpr std::string_view kRoughnessName = "roughness";
 inline constexpr std::string_view kLightingName = "lighting";
 inline constexpr std::string_view kConfidenceName = "confidence";
 inline constexpr std::string_view kOutputName = "denoised";

@@ -24,6 +24,8 @@ struct InputConventions {
   /// Whether motion.xy is between the jittered images, from pixel centre to pixel centre. If not, it is the motion that
   /// cameras without jitter would show.
   bool motionJittered = true;
+  /// The light is specular: see `DenoiserInputs::roughness`.
+  bool specular = false;
   LightPattern light = {};
 };
 
@@ -43,6 +45,11 @@ struct DenoiserInputs {
   /// R8_UNORM, or another format of floats: how much of its history a pixel may use, 0 to 1. If present, it scales the
   /// longest history of light; NaN counts as 1.
   fg::Texture confidence = {};
+  /// R8_UNORM: linear roughness (glTF). Of specular light only (`InputConventions::specular`). The other textures then
+  /// differ: the lighting is the light that the specular lobe reflects, over the lobe's directional albedo, and its
+  /// alpha is the distance from the surface to what it reflects, scene units, 0 where there is no sample; `albedo` is
+  /// that of the specular lobe.
+  fg::Texture roughness = {};
   fg::Buffer frame;  ///< Upload of `FrameConstants` (passes/conventions/frame.h).
   InputConventions conventions;
   SceneDescription scene = {};

@@ -72,10 +72,12 @@ struct Method {
   std::unique_ptr<Denoiser> (*make)(const Method& method);
   bool takesSparseLight = false;
   bool sharesGuides = true;
+  bool takesSpecularLight = false;
 };
 
-/// @throws std::invalid_argument if a method needs light at every pixel and not every pixel has it
-void checkLight(const Method& method, const LightPattern& light);
+/// @throws std::invalid_argument if a method needs light at every pixel and not every pixel has it, or takes diffuse
+///         light only and the light is specular
+void checkLight(const Method& method, const InputConventions& conventions);
 
 /// A method made of a settings struct and the function that adds its passes.
 template <typename Settings, auto kAdd>
@@ -110,13 +112,15 @@ class DenoiserOf final : public Denoiser {
 
   fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) override {
     checkSettings();
-    checkLight(method_, inputs.conventions.light);
+    checkLight(method_, inputs.conventions);
     if (graph.shared() != nullptr && !method_.sharesGuides) {
       throw std::invalid_argument("method '" + std::string(method_.name) +
                                   "' has no guides that lights could share: make a denoiser for each light");
     }
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
+    // A texel with a distance of 0 is no sample.
+    if (inputs.conventions.specular) described.conventions.light.masked = true;
     const fg::Texture denoised = kAdd(graph, described, output, settings_);
     graph.requireOutputs();
     return denoised;
@@ -154,8 +158,8 @@ constexpr std::array kMethods{
     Method{"flnr", "FLR with guides from a small network: experimental", make<FlnrSettings, addFlnr>},
     Method{"joint_bilateral", "Joint bilateral filter with temporal accumulation",
            make<JointBilateralSettings, addJointBilateral>},
-    Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>, true},
-    Method{"none", "The input as it is", make<NoSettings, addNone>, false, false},
+    Method{"accumulate", "Temporal accumulation alone", make<AccumulateSettings, addAccumulate>, true, true, true},
+    Method{"none", "The input as it is", make<NoSettings, addNone>, false, false, true},
 };
 
 const Method& findMethod(std::string_view name) {
@@ -167,21 +171,37 @@ const Method& findMethod(std::string_view name) {
   return *found;
 }
 
-void checkLight(const Method& method, const LightPattern& light) {
-  checkLightPattern(light);
-  if (light.everyPixel() || method.takesSparseLight) return;
+/// Names of the methods that take a kind of light.
+std::string methodsThat(bool Method::*takes) {
   std::vector<std::string> names;
   for (const Method& each : kMethods) {
-    if (each.takesSparseLight) names.emplace_back(each.name);
+    if (each.*takes) names.emplace_back(each.name);
   }
-  throw std::invalid_argument(
-      "method '" + std::string(method.name) +
-      "' needs a sample of light at every pixel; methods that take sparse light: " + join(names));
+  return join(names);
+}
+
+void checkLight(const Method& method, const InputConventions& conventions) {
+  const LightPattern& light = conventions.light;
+  checkLightPattern(light);
+  if (conventions.specular && !method.takesSpecularLight) {
+    throw std::invalid_argument(
+        "method '" + std::string(method.name) +
+        "' takes diffuse light only; methods that take specular light: " + methodsThat(&Method::takesSpecularLight));
+  }
+  if (conventions.specular && (light.counted || !light.fullSize())) {
+    throw std::invalid_argument(
+        "specular light needs a texel at every pixel, and its alpha holds distances, not counts of samples: leave out "
+        "light groups and counts, and set the distance to 0 where there is no sample");
+  }
+  if (light.everyPixel() || method.takesSparseLight) return;
+  throw std::invalid_argument("method '" + std::string(method.name) +
+                              "' needs a sample of light at every pixel; methods that take sparse light: " +
+                              methodsThat(&Method::takesSparseLight));
 }
 
 }  // namespace
 
-std::vector<ViewInfo> Denoiser::views() {
+std::vector<ViewInfo> Denoiser::views(const InputConventions& conventions) {
   // The views that the stages offer when recorded on a graph that is then discarded.
   constexpr fg::Extent kExtent{1920, 1080};
   const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, kExtent};
@@ -192,7 +212,9 @@ std::vector<ViewInfo> Denoiser::views() {
   inputs.normal = graph.texture("normal", colour);
   inputs.motion = graph.texture("motion", colour);
   inputs.albedo = graph.texture("albedo", colour);
+  if (conventions.specular) inputs.roughness = graph.texture("roughness", {VK_FORMAT_R8_UNORM, kExtent});
   inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
+  inputs.conventions = conventions;
   Inspection inspection;
   (void)add({graph, inspection}, inputs, graph.texture("output", colour));
   return inspection.known();

@@ -28,15 +28,15 @@ class Denoiser : public Configurable {
   ///                in `lighting` and `confidence` only
   /// @param inputs  the host's textures and scene description; settings may leave out more of the scene
   /// @param output  RGBA16F texture of the inputs' extent that the result is written to
-  /// @returns the output's new version: denoised demodulated diffuse indirect radiance; sky and pixels without a
-  ///          diffuse lobe hold the input unchanged, or, where light is packed, rounded (`antialiasing.storage`)
+  /// @returns the output's new version: the denoised light; sky and pixels without a
+  ///          lobe of that light hold the input unchanged, or, where light is packed, rounded (`antialiasing.storage`)
   /// @throws std::invalid_argument naming a setting outside its range, or a view that does not exist, or the method
-  ///         or setting that needs a sample of light at every pixel (`LightPattern`) where there is none, or saying
-  ///         that lights cannot share guides
+  ///         or setting that needs a sample of light at every pixel (`LightPattern`) where there is none, or that
+  ///         does not take specular light, or saying that lights cannot share guides
   virtual fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) = 0;
   /// The views that `add` takes with the present settings.
-  /// @throws std::invalid_argument naming a setting outside its range
-  [[nodiscard]] std::vector<ViewInfo> views();
+  /// @throws std::invalid_argument naming a setting outside its range, or as `add` for these conventions
+  [[nodiscard]] std::vector<ViewInfo> views(const InputConventions& conventions = {});
 };
 
 /// Names of all methods, as `--method` takes them.

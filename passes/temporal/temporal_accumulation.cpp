@@ -44,7 +44,7 @@ struct Stage {
   fg::Extent extent;  ///< Of the image.
   fg::History accumulated;
   std::optional<Antilag> antilag;  ///< Where the stage has it.
-  fg::Texture givenTaps = {};      ///< Taps that another light has kept; not valid if the stage finds them itself.
+  fg::Texture givenTaps = {};      ///< Taps that another pass has kept; not valid if the stage finds them itself.
 };
 
 Stage stageOf(StageGraph graph, fg::Extent extent, const DenoiserInputs& inputs, const Guides& guides,
@@ -87,9 +87,10 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   pass.uniform("frameConstants", stage.inputs.frame)
       .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
   const StandIns standIns{.colour = stage.inputs.lighting, .number = stage.guides.depth};
-  if (role == Role::MeanAndTaps) {
+  if (role == Role::MeanAndTaps || role == Role::View) {
     const bool given = stage.givenTaps.valid();
-    if (given) reprojection = {MotionSource::Camera, HistoryRejection::None, false};  // Reads nothing.
+    // Reads nothing; but a view tells of the host's motion.
+    if (given && role != Role::View) reprojection = {MotionSource::Camera, HistoryRejection::None, false};
     pass.specialize("kTapsGiven", given).sampleIf(given, "givenTaps", stage.givenTaps, standIns.number);
   }
   readReprojection(pass, stage.inputs, stage.guides, reprojection, standIns);
@@ -191,9 +192,11 @@ AccumulatedLight addTemporalAccumulation(StageGraph graph, const DenoiserInputs&
 
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides, const TemporalAccumulationSettings& settings,
-                                                     LightStorage antialiasing, fg::Texture leastAntilag) {
+                                                     LightStorage antialiasing, fg::Texture leastAntilag,
+                                                     fg::Texture givenTaps) {
   Stage stage = stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, true, leastAntilag);
-  if (graph.shared() != nullptr) stage.givenTaps = graph.shared()->tapsFor(tapTests(settings));
+  stage.givenTaps = givenTaps;
+  if (!givenTaps.valid() && graph.shared() != nullptr) stage.givenTaps = graph.shared()->tapsFor(tapTests(settings));
   offerViews(stage);
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::MeanAndTaps);
   return storeMeanAndTaps(stage, pass, antialiasing);

@@ -90,11 +90,12 @@ struct AccumulationWithTaps {
 /// @param antialiasing storage of the anti-aliasing that reads the taps. Packed: taps hold the pass-through where there
 /// is no surface, because anti-aliasing learns that from the filter's result. Half, and for other readers: they hold a
 /// mark.
+/// @param givenTaps taps that another pass has found (`ReflectionMotion`); not valid: those of the surface
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides,
                                                      const TemporalAccumulationSettings& settings = {},
                                                      LightStorage antialiasing = LightStorage::Half,
-                                                     fg::Texture leastAntilag = {});
+                                                     fg::Texture leastAntilag = {}, fg::Texture givenTaps = {});
 
 /// The light grid: if sparse light has one sample in each group of a grid (`LightPattern::grid`), accumulated light may
 /// have a texel for each group. It is the mean for the pixel that has this frame's sample, from the means of the pixels

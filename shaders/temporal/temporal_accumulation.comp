@@ -10,7 +10,8 @@
 // VIEW: does the same work and writes one of its intermediate values instead of the result; kAntilag says whether
 // antilag is on.
 // GUIDES: prepares the pixel's guides first (guides.glsl), which saves a pass and reading them back.
-// kTapsGiven: takes motion and accepted taps that another light of the same view has kept.
+// kTapsGiven: takes motion and accepted taps that another pass has kept: another light's accumulation, or the motion of
+// reflections (reflection_motion.comp).
 // LIGHT_GRID: the mean has a texel for each group of sparse light, and so has a copy of the guides of the pixels that
 // have this frame's samples. Needs GUIDES.
 // kStill: nothing moves, so that the history of a pixel is the pixel itself.
@@ -60,8 +61,9 @@ layout(rgba16f) uniform writeonly image2D outAccumulated;
 layout(constant_id = 3) const bool kKeepPassThrough = false;  // At pixels without a surface; else kNoSurfaceTaps.
 layout(r32ui) uniform writeonly uimage2D outTaps;
 #endif
-#if defined(KEEP_TAPS) && !defined(GUIDES)
-layout(constant_id = 6) const bool kTapsGiven = false;  // Another light of the frame has found and kept the taps.
+#if (defined(KEEP_TAPS) || defined(VIEW)) && !defined(GUIDES)
+#define GIVEN_TAPS
+layout(constant_id = 6) const bool kTapsGiven = false;
 uniform utexture2D givenTaps;
 #endif
 #if defined(ANTILAG) || defined(VIEW)
@@ -133,18 +135,20 @@ ReprojectedHistory historyAt(HistoryTaps taps, vec2 position) {
   return ReprojectedHistory(mean, position, tapsRejected(taps), 1.0);
 }
 
-#if defined(KEEP_TAPS) && !defined(GUIDES)
-// The history taps that another light has kept, which this one keeps, too.
+#ifdef GIVEN_TAPS
+// The history taps that another pass has kept, which this one keeps, too.
 HistoryTaps takeGivenTaps(ivec2 p) {
   const uint given = texelFetch(givenTaps, p, 0).x;
+#ifdef KEEP_TAPS
   imageStore(outTaps, p, uvec4(given));
+#endif
   return unpackTaps(p, given, frame.previousPixelFromPixel);
 }
 #endif
 
 ReprojectedHistory readHistory(ivec2 p, float z) {
   if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0, 1.0);
-#if defined(KEEP_TAPS) && !defined(GUIDES)
+#ifdef GIVEN_TAPS
   if (kTapsGiven) {
     const HistoryTaps given = takeGivenTaps(p);
     return historyAt(given, tapPosition(given));

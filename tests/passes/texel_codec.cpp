@@ -129,7 +129,7 @@ std::vector<std::uint16_t> encodeHalves(const reference::Image<glm::dvec3>& imag
 
 std::vector<std::uint16_t> encodeLighting(const reference::HostFrame& frame) {
   const LightPattern& light = frame.conventions.light;
-  if (light.everyPixel()) return encodeHalves(frame.lighting);
+  if (light.everyPixel() && !frame.conventions.specular) return encodeHalves(frame.lighting);
   const auto texelsAlong = [](int pixels, std::uint32_t each) {
     return static_cast<std::size_t>(std::ceil(double(pixels) / each));
   };

@@ -22,6 +22,7 @@ struct HostFrame {
   Image<glm::dvec3> albedo;
   Image<std::uint32_t> objectId;  ///< May be empty; 0xffffffff: none.
   Image<double> lightAlpha;       ///< Alpha of the light where it is read; may be empty: 1.
+  Image<double> roughness;        ///< Of specular light, in steps of 1/255; else empty.
   FrameConstants constants{};
   InputConventions conventions;
   SceneDescription scene;

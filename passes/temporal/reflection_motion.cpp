@@ -1,0 +1,65 @@
+#include "passes/temporal/reflection_motion.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "passes/temporal/reprojection.h"
+#include "shaders/shaders.h"
+#include "shaders/temporal/reflection_motion.h"
+
+namespace walr {
+namespace {
+
+/// In the order of `view` of the shader.
+const std::vector<ViewInfo>& reflectionViews() {
+  static const std::vector<ViewInfo> kViews{
+      {"reflection-motion",
+       "Motion of specular light to the previous frame, x and y in pixels; 1 where it is that of the mirror image",
+       {{"mirror-images", "Z"}}},
+      {"reflection-history",
+       "Longest history of specular light, frames; by how much its ray of the previous frame misses what is reflected, "
+       "over the lobe's half angle; 1 where that shortens history",
+       {{"shortened-reflections", "Z"}}},
+  };
+  return kViews;
+}
+
+}  // namespace
+
+ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                                     const TemporalAccumulationSettings& settings,
+                                     const ReflectionMotionSettings& reflection) {
+  if (settings.rejection != HistoryRejection::Plane) {
+    throw std::invalid_argument("specular light tests its history by plane: leave accumulation.rejection at plane");
+  }
+  const fg::Extent extent = graph.textureDesc(guides.depth).extent;
+  const fg::History reflectors = graph.history("reflectors", {VK_FORMAT_R32G32_UINT, extent});
+  const StandIns standIns{.colour = inputs.lighting, .number = guides.depth};
+  const auto declare = [&](const std::string& name, const fg::Shader& shader) {
+    fg::PassBuilder pass = graph.compute(name, shader);
+    pass.uniform("frameConstants", inputs.frame)
+        .sample("lighting", inputs.lighting)
+        .sample("roughness", inputs.roughness)
+        .sample("depth", guides.depth)
+        .sample("shadingNormal", guides.shadingNormal)
+        .sample("previousReflector", reflectors.previous)
+        .constants(ReflectionMotionConstants{settings.thresholds.planeTolerance, settings.thresholds.normalThreshold,
+                                             settings.maxHistory, reflection.surfaceFrom, reflection.historyPerLobe})
+        .dispatch(extent);
+    readReprojection(pass, inputs, guides,
+                     reprojectionOf(inputs.scene, false, settings.rejection, settings.dilateMotion), standIns);
+    readConfidence(pass, inputs.confidence, inputs, standIns);
+    return pass;
+  };
+  graph.offer(reflectionViews(), extent,
+              [&](const std::string& name) { return declare(name, shaders::reflectionMotionView); });
+  fg::PassBuilder pass = declare("reflection motion", shaders::reflectionMotion);
+  ReflectionMotion result;
+  result.taps = pass.store("outTaps", graph.texture("reflection taps", {VK_FORMAT_R32_UINT, extent}));
+  result.confidence = pass.store("outConfidence", graph.texture("reflection confidence", {VK_FORMAT_R8_UNORM, extent}));
+  (void)pass.store("outReflector", reflectors.current);
+  return result;
+}
+
+}  // namespace walr

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "framegraph/declare/graph.h"
+#include "passes/conventions/inputs.h"
+#include "passes/guides/prepare_guides.h"
+#include "passes/settings/settings.h"
+#include "passes/stage/stage_graph.h"
+#include "passes/temporal/temporal_accumulation.h"
+
+namespace walr {
+
+/// Settings of the search for the place of reflected light in the previous frame.
+struct ReflectionMotionSettings {
+  float surfaceFrom = 0.5F;
+  float historyPerLobe = 4.0F;
+
+  void visit(SettingVisitor& v) {
+    v.visit({"reflection.surface-from",
+             "Specular light: linear roughness from which its history moves with the surface alone; 0: everywhere", "",
+             0.0, 1.0, "measured"},
+            surfaceFrom);
+    v.visit({"reflection.history-per-lobe",
+             "Specular light: longest history where the reflected ray of the previous frame misses by the lobe's half "
+             "angle; more where it misses by less",
+             "frames", 0.0, 255.0, "measured"},
+            historyPerLobe);
+  }
+};
+
+/// Where the specular light of every pixel was in the previous frame.
+struct ReflectionMotion {
+  fg::Texture taps;        ///< R32_UINT: as `AccumulationWithTaps::taps`.
+  fg::Texture confidence;  ///< R8_UNORM: as `DenoiserInputs::confidence`, which it includes.
+};
+
+/// Find the motion of specular light (passes/LEARNT.md, "Reflections"): that of the mirror image, or that of the
+/// surface, whichever ray of the previous frame comes closer to what is reflected.
+/// @param guides   with the geometric normal apart and with history
+/// @param settings of the accumulation that takes the result
+/// @throws std::invalid_argument if these settings do not test history by plane
+ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                                     const TemporalAccumulationSettings& settings,
+                                     const ReflectionMotionSettings& reflection = {});
+
+}  // namespace walr

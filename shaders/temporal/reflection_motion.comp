@@ -1,0 +1,307 @@
+// Where the light that a surface reflects was in the previous frame (passes/WALR.md, "Specular light"). It moves with
+// the mirror image of what is reflected, and on rough surfaces with the surface itself. A candidate for its place is tested
+// by the ray that the previous frame's surface reflected there: by how much it misses the point that is reflected now.
+// The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
+// history (confidence.glsl).
+// Needs the geometric normal beside depth. Tests history by plane.
+// VIEW: does the same work and writes its intermediate values.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
+#include "conventions/frame.h"
+#include "temporal/reflection_motion.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(std140) uniform frameConstants { FrameConstants frame; };
+uniform texture2D lighting;  // a: distance from the surface to what it reflects; 0: there is no sample.
+uniform texture2D roughness;
+uniform texture2D motion;
+uniform utexture2D depth;
+uniform utexture2D geometricNormal;
+uniform utexture2D shadingNormal;
+uniform usampler2D previousDepth;
+uniform usampler2D previousGeometricNormal;
+uniform utexture2D previousReflector;  // Shading normal, as in the guides; roughness in 16 bits.
+#ifdef VIEW
+layout(rgba32f) uniform writeonly image2D outView;
+#else
+layout(r32ui) uniform writeonly uimage2D outTaps;
+layout(r8) uniform writeonly image2D outConfidence;
+layout(rg32ui) uniform writeonly uimage2D outReflector;
+#endif
+layout(push_constant) uniform PushConstants {
+  ReflectionMotionConstants constants;
+#ifdef VIEW
+  uint view;  // Which quantity; numbered in viewOf.
+#endif
+};
+
+#define KEEP_TAPS
+#define HISTORY previousReflector
+#include "temporal/confidence.glsl"
+#include "temporal/mirror_image.glsl"
+#include "temporal/reprojection.glsl"
+
+const float kNewtonUpTo = 0.3;            // Roughness.
+const float kLongestNewtonStep = 3.0;     // Pixels.
+const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
+const float kLeastDistance = 1e-3;        // Of what is reflected, over view depth.
+const float kMostNormalChange = 0.5;      // Between pixels that tell the curvature.
+const int kCurvatureStep = 2;             // Pixels.
+const float kLargestMiss = 2.0;           // Of a unit vector from another.
+
+// A reflecting surface at a pixel, in the view space of its frame.
+struct Reflector {
+  vec3 position;
+  vec3 plane;   // Geometric normal.
+  vec3 normal;  // Shading normal.
+  float roughness;
+};
+
+float roughnessAt(ivec2 p) {
+  const float r = texelFetch(roughness, p, 0).x;
+  return isFinite(r) ? clamp(r, 0.0, 1.0) : 1.0;
+}
+
+// Of this frame. `z`: its depth.
+Reflector reflectorAt(ivec2 p, float z) {
+  return Reflector(rayThrough(frame.rayFromPixel, pixelCentre(p)) * z, unpackLongNormal(packedGeometricNormalAt(p)),
+                   unpackLongNormal(texelFetch(shadingNormal, p, 0).x), roughnessAt(p));
+}
+
+// Whether two points with their geometric normals lie on one surface. The mean of the normals is perpendicular to the
+// line between any two points of a sphere or a plane.
+bool areOnOneSurface(vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
+  const bool facing = dot(normalA, normalB) >= constants.normalThreshold;
+  return facing && abs(dot(b - a, normalA + normalB)) <= -2.0 * constants.planeTolerance * a.z;
+}
+
+// The neighbour of this frame's pixel `p`, if it shows the same surface.
+bool neighbourAt(ivec2 q, Reflector own, out Reflector found) {
+  found = own;
+  if (any(greaterThanEqual(uvec2(q), uvec2(textureSize(depth, 0))))) return false;
+  const float z = depthAt(q);
+  if (z == 0.0) return false;
+  found.position = rayThrough(frame.rayFromPixel, pixelCentre(q)) * z;
+  found.plane = unpackLongNormal(packedGeometricNormalAt(q));
+  return areOnOneSurface(own.position, own.plane, found.position, found.plane);
+}
+
+// 1 over the smallest distance that a sample of the 3 x 3 neighbours on the same surface has. 0 without samples: what
+// is reflected counts as far away.
+float inverseDistanceAround(ivec2 p, Reflector own) {
+  const float least = -kLeastDistance * own.position.z;
+  float nearest = 0.0;
+  Reflector found;
+  for (int i = 0; i < 9; ++i) {
+    const ivec2 q = p + ivec2(i % 3, i / 3) - 1;
+    if (!neighbourAt(q, own, found)) continue;
+    const float distance = texelFetch(lighting, q, 0).a;
+    if (distance > 0.0) nearest = max(nearest, 1.0 / clamp(distance, least, kLargestHalf));
+  }
+  return nearest;
+}
+
+// In units of the depth of the pixel.
+vec2 curvaturesAt(ivec2 p, Reflector own, Incidence incidence) {
+  const float unit = -1.0 / own.position.z;
+  ShapeSums sums = ShapeSums(mat2(0.0), mat2(0.0));
+  Reflector found;
+  for (int i = 0; i < 9; ++i) {
+    const ivec2 q = p + kCurvatureStep * (ivec2(i % 3, i / 3) - 1);
+    if (i == 4 || !neighbourAt(q, own, found)) continue;
+    const vec3 change = unpackLongNormal(texelFetch(shadingNormal, q, 0).x) - own.normal;
+    if (dot(change, change) >= kMostNormalChange * kMostNormalChange) continue;
+    addDifference(sums, incidence, (found.position - own.position) * unit, change);
+  }
+  return curvaturesOf(sums);
+}
+
+// Positions in the previous image are in pixels of this frame's size, and include its jitter.
+
+// Where the mirror image was, relative to its surface, if that is still.
+vec2 imageOffset(ivec2 p, Reflector own, float inverseDistance) {
+  const float z = -own.position.z, eye = length(own.position);
+  const vec3 v = own.position / eye;
+  const Incidence incidence = incidenceOf(v, own.normal);
+  const vec2 curvatures = curvaturesAt(p, own, incidence);
+  const vec2 images = z * imageDistances(z * inverseDistance, curvatures, incidence.cosine);
+  if (isNearEye(images, eye)) return vec2(0.0);
+  const vec3 base = previousPosition(frame.previousViewFromView, own.position);
+  const vec3 step = mat3(frame.previousViewFromView) * v, side = mat3(frame.previousViewFromView) * incidence.across;
+  const vec2 origin = nearPixelOf(frame.previousRayFromPixel, base);
+  const vec2 within = nearPixelOf(frame.previousRayFromPixel, base + step * images.x) - origin;
+  const vec2 across = nearPixelOf(frame.previousRayFromPixel, base + step * images.y) - origin;
+  // Across the plane of incidence, the picture moves along the projection of that direction.
+  const vec2 along = (base.xy * side.z - side.xy * base.z) / frame.previousRayFromPixel.xy;
+  const vec2 t = along * inversesqrt(max(dot(along, along), 1e-30));
+  return within + dot(across - within, t) * t;
+}
+
+// What the previous frame shows at a position: the mean of those of its pixels there that show the same surface.
+struct Before {
+  vec3 position;
+  vec3 normal;  // Not normalised.
+  // Their changes from one pixel of the previous frame to the next, if `whole`.
+  vec3 positionSlopes[2];
+  vec3 normalSlopes[2];
+  bvec4 accepted;
+  bool found;
+  bool whole;  // All four pixels show the surface.
+};
+
+// `surface`: where the surface itself was. `valid`: whether that is known.
+Before surfaceBefore(HistoryTaps taps, Reflector surface, bool valid) {
+  const ivec2 size = textureSize(previousReflector, 0);
+  const bvec4 inside = tapsInside(taps, size);
+  vec3 positions[4], normals[4];
+  Before b;
+  [[unroll]] for (int i = 0; i < 4; ++i) {
+    const ivec2 q = clamp(historyTap(taps, i), ivec2(0), size - 1);
+    const float z = unpackDepth(texelFetch(previousDepth, q, 0).x);
+    const vec3 plane = unpackLongNormal(texelFetch(previousGeometricNormal, q, 0).x);
+    const uvec2 reflector = texelFetch(previousReflector, q, 0).xy;
+    positions[i] = rayThrough(frame.previousRayFromPixel, (vec2(q) + 0.5) * frame.pixelFromPreviousPixel) * z;
+    normals[i] = unpackLongNormal(reflector.x);
+    const float rougher = float(reflector.y) / 65535.0 - surface.roughness;
+    b.accepted[i] = valid && inside[i] && z > 0.0 && abs(rougher) <= kRoughnessTolerance &&
+                    areOnOneSurface(surface.position, surface.plane, positions[i], plane);
+  }
+  taps.accepted = b.accepted;
+  const vec4 weights = tapWeights(taps);
+  const float sum = dot(weights, vec4(1.0)), scale = 1.0 / max(sum, kLeastTapWeight);
+  b.position = b.normal = vec3(0.0);
+  [[unroll]] for (int i = 0; i < 4; ++i) {
+    b.position += scale * weights[i] * positions[i];
+    b.normal += scale * weights[i] * normals[i];
+  }
+  b.found = sum > kLeastTapWeight;
+  b.whole = all(b.accepted);
+  const vec2 f = taps.fraction;
+  b.positionSlopes[0] = mix(positions[1] - positions[0], positions[3] - positions[2], f.y);
+  b.positionSlopes[1] = mix(positions[2] - positions[0], positions[3] - positions[1], f.x);
+  b.normalSlopes[0] = mix(normals[1] - normals[0], normals[3] - normals[2], f.y);
+  b.normalSlopes[1] = mix(normals[2] - normals[0], normals[3] - normals[1], f.x);
+  return b;
+}
+
+HistoryTaps tapsAt(vec2 position) {
+  const vec2 before = position * frame.previousPixelFromPixel - 0.5, base = floor(before);
+  return HistoryTaps(ivec2(base), before - base, bvec4(false));
+}
+
+// The difference between the direction that a surface reflects to the eye and that of a point, which is the angle by
+// which the reflected ray misses the point where that is small.
+vec3 missOf(vec3 object, vec3 position, vec3 normal) {
+  const vec3 n = normal * inversesqrt(max(dot(normal, normal), 1e-20)), way = object - position;
+  const vec3 seen = position * inversesqrt(max(dot(position, position), 1e-20));
+  return reflect(seen, n) - way * inversesqrt(max(dot(way, way), 1e-20));
+}
+
+// A candidate for the place of reflected light in the previous image.
+struct Candidate {
+  vec2 position;
+  float miss;  // kLargestMiss and more: there is no history.
+};
+
+Candidate candidateFrom(vec2 position, Before b, vec3 object) {
+  return Candidate(position, b.found ? length(missOf(object, b.position, b.normal)) : 2.0 * kLargestMiss);
+}
+
+// One step of Newton's method on the miss, in pixels of the previous frame.
+vec2 newtonStep(Before b, vec3 object) {
+  const vec3 miss = missOf(object, b.position, b.normal);
+  const vec3 x = missOf(object, b.position + b.positionSlopes[0], b.normal + b.normalSlopes[0]) - miss;
+  const vec3 y = missOf(object, b.position + b.positionSlopes[1], b.normal + b.normalSlopes[1]) - miss;
+  // Least squares: the three components have two degrees of freedom.
+  const float xx = dot(x, x), yy = dot(y, y), xy = dot(x, y), determinant = xx * yy - xy * xy;
+  if (!(determinant > 1e-6 * xx * yy)) return vec2(0.0);
+  const vec2 right = -vec2(dot(x, miss), dot(y, miss));
+  const vec2 step = vec2(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
+  return step * min(1.0, kLongestNewtonStep * inversesqrt(max(dot(step, step), 1e-20)));
+}
+
+// Half angle of the lobe about the mirror direction, radians.
+float lobeAngle(float r) { return 2.0 * atan(r * r); }
+
+// The place of a pixel's reflected light in the previous frame.
+struct ReflectionMotion {
+  vec2 motion;    // As kept taps hold it.
+  bvec4 taps;     // Which are accepted.
+  float history;  // Longest, frames.
+  float miss;     // Over the half angle that it is compared with.
+  bool image;     // The mirror image is followed.
+};
+
+ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
+  const Reprojection r = reproject(p, -own.position.z);
+  const vec2 surfaceAt = pixelCentre(p) + r.motion + frame.jitterDelta;
+  const Reflector surface = Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth,
+                                      mat3(frame.previousViewFromView) * own.plane,
+                                      mat3(frame.previousViewFromView) * own.normal, own.roughness);
+  ReflectionMotion result = ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false);
+  if (own.roughness < constants.surfaceFrom) {
+    const float inverseDistance = inverseDistanceAround(p, own);
+    const vec3 mirrored = reflect(normalize(own.position), own.normal);
+    const vec3 object = own.position + mirrored / max(inverseDistance, 1.0 / kLargestHalf);
+    const vec3 objectBefore = previousPosition(frame.previousViewFromView, object);
+    Candidate best = candidateFrom(surfaceAt, surfaceBefore(tapsAt(surfaceAt), surface, r.valid), objectBefore);
+
+    // Objects that move carry their images along.
+    const vec2 imageAt = surfaceAt + imageOffset(p, own, inverseDistance);
+    const Before there = surfaceBefore(tapsAt(imageAt), surface, r.valid);
+    Candidate image = candidateFrom(imageAt, there, objectBefore);
+    if (own.roughness <= kNewtonUpTo && there.whole) {
+      const vec2 nearer = imageAt + newtonStep(there, objectBefore) * frame.pixelFromPreviousPixel;
+      const Candidate stepped = candidateFrom(nearer, surfaceBefore(tapsAt(nearer), surface, r.valid), objectBefore);
+      if (stepped.miss < image.miss) image = stepped;
+    }
+    if (image.miss < best.miss) {
+      best = image;
+      result.image = true;
+      result.motion = keepableMotion(image.position - frame.jitterDelta - pixelCentre(p));
+    }
+    // No picture tells angles below half a pixel apart.
+    const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
+    result.miss = best.miss / allowed;
+    result.history = min(constants.historyPerLobe / max(result.miss, 1e-6), constants.maxHistory);
+  }
+  result.history = confidentLength(p, result.history, constants.maxHistory);
+  result.taps = surfaceBefore(tapsAround(p, result.motion, frame.previousPixelFromPixel), surface, r.valid).accepted;
+  return result;
+}
+
+#ifdef VIEW
+vec3 viewOf(ivec2 p, Reflector own) {
+  const ReflectionMotion m = reflectionMotionAt(p, own);
+  switch (view) {
+    case 0u: return vec3(m.motion, m.image);
+    case 1u: return vec3(m.history, min(m.miss, kLargestHalf), m.history < constants.maxHistory);
+  }
+  return vec3(0.0);
+}
+#endif
+
+void main() {
+  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+  const float z = depthAt(p);
+#ifdef VIEW
+  imageStore(outView, p, vec4(z > 0.0 ? viewOf(p, reflectorAt(p, z)) : vec3(0.0), 1.0));
+#else
+  if (z == 0.0) {
+    imageStore(outTaps, p, uvec4(kNoSurfaceTaps));
+    imageStore(outConfidence, p, vec4(0.0));
+    imageStore(outReflector, p, uvec4(0u));
+    return;
+  }
+  const Reflector own = reflectorAt(p, z);
+  const ReflectionMotion m = reflectionMotionAt(p, own);
+  imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
+  imageStore(outConfidence, p, vec4(m.history / constants.maxHistory));
+  const uint packedRoughness = uint(own.roughness * 65535.0 + 0.5);
+  imageStore(outReflector, p, uvec4(texelFetch(shadingNormal, p, 0).x, packedRoughness, 0u, 0u));
+#endif
+}

@@ -1,0 +1,20 @@
+#ifndef WALR_SHADERS_TEMPORAL_REFLECTION_MOTION_H
+#define WALR_SHADERS_TEMPORAL_REFLECTION_MOTION_H
+#include "../common/types.h"
+#ifdef __cplusplus
+namespace walr {
+#endif
+
+struct ReflectionMotionConstants {
+  float planeTolerance;   // Largest distance between two pixels of one surface from each other's plane, over depth.
+  float normalThreshold;  // Smallest cosine between their geometric normals.
+  float maxHistory;       // Longest history, frames.
+  float surfaceFrom;      // Linear roughness from which the light follows the surface alone.
+  float historyPerLobe;   // Frames that remain where the reflected ray misses by the half angle of the lobe.
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(ReflectionMotionConstants) == 20);
+}  // namespace walr
+#endif
+#endif

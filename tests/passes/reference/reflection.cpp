@@ -1,0 +1,256 @@
+#include "tests/passes/reference/reflection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "tests/passes/reference/octahedral.h"
+#include "tests/passes/reference/reprojection.h"
+
+namespace walr::reference {
+namespace {
+
+/// Single precision may decide where two sides differ by less than this share.
+constexpr double kClose = 1e-3;
+/// The same of misses, which hold the rounding of kept motion.
+constexpr double kCloseMiss = 0.01;
+
+bool close(double value, double threshold, double share = kClose) {
+  return std::abs(value - threshold) <= share * std::abs(threshold);
+}
+
+/// A reflecting point, in the view space of its frame.
+struct Mirror {
+  glm::dvec3 position{0.0};
+  glm::dvec3 plane{0.0};
+  glm::dvec3 normal{0.0};
+  double roughness = 0.0;
+};
+
+/// The stage at one pixel.
+class Search {
+ public:
+  Search(const HostFrame& frame, const Image<Guide>& guides, const ReflectorHistory& previous,
+         const TemporalAccumulationSettings& settings, const ReflectionMotionSettings& reflection, glm::ivec2 p)
+      : frame_(frame), guides_(guides), previous_(previous), settings_(settings), reflection_(reflection), p_(p) {}
+
+  Reflected find();
+
+ private:
+  [[nodiscard]] glm::dvec3 before(glm::dvec3 position) const {
+    return glm::dvec3(glm::dmat4(frame_.constants.previousViewFromView) * glm::dvec4(position, 1.0));
+  }
+  [[nodiscard]] glm::dvec3 turned(glm::dvec3 direction) const {
+    return glm::dmat3(glm::dmat4(frame_.constants.previousViewFromView)) * direction;
+  }
+  /// Where the previous picture shows a position, with its jitter.
+  [[nodiscard]] glm::dvec2 shown(glm::dvec3 position) const {
+    const glm::dvec4 ray(frame_.constants.previousRayFromPixel);
+    return (glm::dvec2(position) / -position.z - glm::dvec2(ray.z, ray.w)) / glm::dvec2(ray);
+  }
+  [[nodiscard]] Mirror mirrorAt(glm::ivec2 q) const {
+    return {rayThrough(frame_.constants.rayFromPixel, pixelCentre(q)) * guides_[q].depth, guides_[q].normal,
+            octahedralDecode(guides_[q].features), frame_.roughness[q]};
+  }
+  bool oneSurface(const Mirror& a, const Mirror& b) {
+    const double cosine = glm::dot(a.plane, b.plane);
+    const double distance = std::abs(glm::dot(b.position - a.position, a.plane + b.plane)) / -a.position.z;
+    const double most = 2.0 * double(settings_.thresholds.planeTolerance);
+    result_.undecided |= close(cosine, settings_.thresholds.normalThreshold) || close(distance, most);
+    return cosine >= double(settings_.thresholds.normalThreshold) && distance <= most;
+  }
+  std::optional<Mirror> neighbour(const Mirror& own, glm::ivec2 offset) {
+    const glm::ivec2 q = p_ + offset;
+    if (!guides_.contains(q) || guides_[q].depth == 0.0) return std::nullopt;
+    const Mirror found = mirrorAt(q);
+    return oneSurface(own, found) ? std::optional(found) : std::nullopt;
+  }
+  double nearestDistance(const Mirror& own);
+  glm::dmat2 shape(const Mirror& own, glm::dvec3 within, glm::dvec3 across);
+  glm::dvec2 imageMotion(const Mirror& own, double distance);
+  /// The mean of what the previous frame shows at a position; `whole`: all four pixels count.
+  /// @param beyond  continues the bilinear mean by so many pixels
+  std::optional<Mirror> shownAt(glm::dvec2 position, const Mirror& surface, bool& whole, glm::dvec2 beyond = {});
+  [[nodiscard]] static glm::dvec3 miss(const Mirror& mirror, glm::dvec3 object) {
+    const glm::dvec3 seen = glm::normalize(mirror.position);
+    return glm::reflect(seen, glm::normalize(mirror.normal)) - glm::normalize(object - mirror.position);
+  }
+
+  const HostFrame& frame_;
+  const Image<Guide>& guides_;
+  const ReflectorHistory& previous_;
+  const TemporalAccumulationSettings& settings_;
+  const ReflectionMotionSettings& reflection_;
+  glm::ivec2 p_;
+  Reflected result_;
+};
+
+double Search::nearestDistance(const Mirror& own) {
+  double nearest = kLargestHalf;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      if (!neighbour(own, {x, y})) continue;
+      const double d = frame_.lightAlpha[p_ + glm::ivec2(x, y)];
+      if (d > 0.0) nearest = std::min(nearest, std::max(d, -1e-3 * own.position.z));
+    }
+  }
+  return nearest;
+}
+
+/// The shape operator in the basis of two tangents, with lengths in units of depth.
+glm::dmat2 Search::shape(const Mirror& own, glm::dvec3 within, glm::dvec3 across) {
+  const auto tangential = [&](glm::dvec3 v) { return glm::dvec2(glm::dot(v, within), glm::dot(v, across)); };
+  glm::dmat2 positions(0.0);
+  glm::dmat2 normals(0.0);
+  for (int y = -2; y <= 2; y += 2) {
+    for (int x = -2; x <= 2; x += 2) {
+      if (x == 0 && y == 0) continue;
+      const auto found = neighbour(own, {x, y});
+      if (!found) continue;
+      const glm::dvec3 change = found->normal - own.normal;
+      result_.undecided |= close(glm::length(change), 0.5);
+      if (glm::length(change) >= 0.5) continue;
+      const glm::dvec2 s = tangential((found->position - own.position) / -own.position.z);
+      positions += glm::outerProduct(s, s);
+      normals += glm::outerProduct(tangential(change), s);
+    }
+  }
+  const double ridge = 1e-3 * (positions[0][0] + positions[1][1]) + 1e-12;
+  return normals * glm::inverse(positions + glm::dmat2(ridge));
+}
+
+glm::dvec2 Search::imageMotion(const Mirror& own, double distance) {
+  const glm::dvec3 v = glm::normalize(own.position);
+  const glm::dvec3 side = glm::cross(v, own.normal);
+  // The pass takes another direction where there is no plane of incidence.
+  result_.undecided |= glm::length(side) < 1e-3;
+  const glm::dvec3 across = glm::normalize(side);
+  const glm::dmat2 curvature = shape(own, glm::cross(own.normal, across), across);
+  const double cosine = std::max(-glm::dot(v, own.normal), 0.15);
+  const double eye = glm::length(own.position);
+  std::array<double, 2> images{};
+  for (int i = 0; i < 2; ++i) {
+    double c = curvature[i][i];
+    result_.undecided |= close(std::abs(c), 0.05);
+    if (std::abs(c) < 0.05) c = 0.0;
+    const double bent = 2.0 * c * (i == 0 ? 1.0 / cosine : cosine);
+    double inverse = -own.position.z / distance + bent;
+    if (std::abs(inverse) < 1.0 / 3000.0) inverse = 1.0 / 3000.0;
+    images.at(i) = -own.position.z / inverse;
+    const double fromEye = std::abs(1.0 + images.at(i) / eye);
+    result_.undecided |= close(fromEye, 0.15);
+    if (fromEye < 0.15) return glm::dvec2(0.0);
+  }
+  const glm::dvec2 origin = shown(before(own.position));
+  const glm::dvec2 within = shown(before(own.position + v * images[0])) - origin;
+  const glm::dvec2 acrossMotion = shown(before(own.position + v * images[1])) - origin;
+  // The direction in the picture, as a difference over a short way.
+  const glm::dvec2 t = glm::normalize(shown(before(own.position - 1e-6 * own.position.z * across)) - origin);
+  return within - glm::dot(within, t) * t + glm::dot(acrossMotion, t) * t;
+}
+
+std::optional<Mirror> Search::shownAt(glm::dvec2 position, const Mirror& surface, bool& whole, glm::dvec2 beyond) {
+  whole = false;
+  if (previous_.guides.pixels().empty() || !(glm::length(position) < 1e5)) return std::nullopt;
+  const glm::dvec2 at = position - 0.5;
+  const glm::dvec2 base = glm::floor(at);
+  const glm::dvec2 f = at - base + beyond;
+  Mirror sum;
+  double weights = 0.0;
+  int accepted = 0;
+  for (int i = 0; i < 4; ++i) {
+    const glm::ivec2 q = glm::ivec2(base) + glm::ivec2(i % 2, i / 2);
+    if (!previous_.guides.contains(q) || previous_.guides[q].depth == 0.0) continue;
+    const Guide& guide = previous_.guides[q];
+    const Mirror tap{rayThrough(frame_.constants.previousRayFromPixel, pixelCentre(q)) * guide.depth, guide.normal,
+                     octahedralDecode(guide.features), previous_.roughness[q]};
+    if (!oneSurface(surface, tap) || std::abs(tap.roughness - surface.roughness) > 0.1) continue;
+    const double weight = (i % 2 == 1 ? f.x : 1.0 - f.x) * (i / 2 == 1 ? f.y : 1.0 - f.y);
+    sum.position += weight * tap.position;
+    sum.normal += weight * tap.normal;
+    weights += weight;
+    ++accepted;
+  }
+  result_.undecided |= weights < 0.02 && weights > 0.005;
+  whole = accepted == 4;
+  // Next to a pixel's centre, rounding may decide which pixels are the four; that matters only where some are rejected.
+  const glm::dvec2 toCentre = glm::min(at - base, 1.0 - at + base);
+  result_.undecided |= !whole && std::min(toCentre.x, toCentre.y) < 0.02;
+  if (weights <= 0.01) return std::nullopt;
+  sum.position /= weights;
+  sum.normal /= weights;
+  return sum;
+}
+
+Reflected Search::find() {
+  const Mirror own = mirrorAt(p_);
+  const Reprojection r = reproject(frame_, guides_, p_, {.keepTaps = true});
+  result_.undecided = r.undecided;
+  result_.motion = r.pixel - pixelCentre(p_);
+  result_.history = settings_.maxHistory;
+  if (own.roughness >= double(reflection_.surfaceFrom)) return result_;
+
+  const glm::dvec2 jitter(frame_.constants.jitterDelta);
+  const glm::dvec2 surfaceAt = r.pixel + jitter;
+  const Mirror surface{r.position, r.normal, turned(own.normal), own.roughness};
+  const double distance = nearestDistance(own);
+  const glm::dvec3 object = before(own.position + distance * glm::reflect(glm::normalize(own.position), own.normal));
+  bool whole = false;
+  const auto missAt = [&](glm::dvec2 position) {
+    const auto there = shownAt(position, surface, whole);
+    return there ? glm::length(miss(*there, object)) : std::numeric_limits<double>::infinity();
+  };
+  double best = missAt(surfaceAt);
+
+  glm::dvec2 imageAt = surfaceAt + imageMotion(own, distance);
+  double imageMiss = missAt(imageAt);
+  if (own.roughness <= 0.3 && whole) {
+    // Newton's method on the miss, with differences over a pixel.
+    const auto missBeyond = [&](glm::dvec2 beyond) { return miss(*shownAt(imageAt, surface, whole, beyond), object); };
+    const glm::dvec3 m = missBeyond({});
+    const glm::dvec3 x = missBeyond({1.0, 0.0}) - m;
+    const glm::dvec3 y = missBeyond({0.0, 1.0}) - m;
+    const glm::dmat2 normal(glm::dot(x, x), glm::dot(x, y), glm::dot(x, y), glm::dot(y, y));
+    glm::dvec2 step = -glm::inverse(normal) * glm::dvec2(glm::dot(x, m), glm::dot(y, m));
+    step *= std::min(1.0, 3.0 / glm::length(step));
+    const double stepped = missAt(imageAt + step);
+    result_.undecided |= close(stepped, imageMiss, kCloseMiss);
+    if (stepped < imageMiss) {
+      imageMiss = stepped;
+      imageAt += step;
+    }
+  }
+  // Rays that both hit differ by rounding only.
+  const double rounding = 2e-5;
+  result_.undecided |= std::abs(imageMiss - best) <= kCloseMiss * best + rounding;
+  if (imageMiss < best) {
+    best = imageMiss;
+    result_.image = true;
+    result_.motion = imageAt - jitter - pixelCentre(p_);
+  }
+  const double lobe = 2.0 * std::atan(own.roughness * own.roughness);
+  result_.miss = best / std::max(lobe, 0.5 * std::abs(double(frame_.constants.rayFromPixel.y)));
+  result_.history = std::min(double(reflection_.historyPerLobe) / result_.miss, double(settings_.maxHistory));
+  return result_;
+}
+
+}  // namespace
+
+Image<Reflected> reflectionMotion(const HostFrame& frame, const Image<Guide>& guides, const ReflectorHistory& previous,
+                                  const TemporalAccumulationSettings& settings,
+                                  const ReflectionMotionSettings& reflection) {
+  Image<Reflected> result(frame.size());
+  forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    if (guides[p].depth > 0.0) result[p] = Search(frame, guides, previous, settings, reflection, p).find();
+  });
+  return result;
+}
+
+}  // namespace walr::reference

@@ -1,0 +1,404 @@
+// Where reflected light was in the previous frame: the pass against its double-precision reference, and against optics.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include "passes/methods/denoiser.h"
+#include "passes/temporal/reflection_motion.h"
+#include "tests/passes/comparison.h"
+#include "tests/passes/denoiser_run.h"
+#include "tests/passes/host_textures.h"
+#include "tests/passes/reference/reflection.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test {
+namespace {
+
+using reference::Guide;
+using reference::HostFrame;
+using reference::Image;
+
+constexpr glm::ivec2 kSize(64, 48);
+/// Pixels per unit of slope: those of a picture of 1080 lines that is 0.8 radians high.
+const double kPixels = 540.0 / std::tan(0.4);
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A spherical mirror that meets (0, 0, -distance) with a normal that is `tilt` away from the z axis.
+struct Mirror {
+  double radius = 0.0;  ///< Above 0: convex; below 0: concave; infinite: flat.
+  double tilt = 0.0;    ///< Radians.
+  double distance = 2.0;
+
+  [[nodiscard]] glm::dvec3 point() const { return {0.0, 0.0, -distance}; }
+  [[nodiscard]] glm::dvec3 axis() const { return {0.8 * std::sin(tilt), 0.6 * std::sin(tilt), std::cos(tilt)}; }
+  [[nodiscard]] bool flat() const { return std::isinf(radius); }
+  [[nodiscard]] glm::dvec3 centre() const { return point() - radius * axis(); }
+  [[nodiscard]] glm::dvec3 normalAt(glm::dvec3 q) const { return flat() ? axis() : (q - centre()) / radius; }
+
+  /// Distance along a ray; of two, that of the hit nearer to `point`.
+  [[nodiscard]] std::optional<double> hit(glm::dvec3 origin, glm::dvec3 direction) const {
+    if (flat()) return glm::dot(point() - origin, axis()) / glm::dot(direction, axis());
+    const glm::dvec3 from = origin - centre();
+    const double a = glm::dot(direction, direction);
+    const double b = glm::dot(from, direction);
+    const double root = b * b - a * (glm::dot(from, from) - radius * radius);
+    if (root < 0.0) return std::nullopt;
+    const double near = (-b - std::sqrt(root)) / a;
+    const double far = (-b + std::sqrt(root)) / a;
+    const auto away = [&](double t) { return glm::distance(origin + t * direction, point()); };
+    const double t = away(near) < away(far) ? near : far;
+    return t > 0.0 ? std::optional(t) : std::nullopt;
+  }
+  [[nodiscard]] Scene scene() const {
+    return [*this](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
+      const auto t = hit(origin, direction);
+      if (!t) return std::nullopt;
+      return SceneHit{.distance = *t, .shadingNormal = normalAt(origin + *t * direction)};
+    };
+  }
+
+  /// The point that reflects `object` into `eye`, near `start`: there, by Fermat's principle, the length of the way has
+  /// no slope along the mirror.
+  [[nodiscard]] std::optional<glm::dvec3> reflecting(glm::dvec3 eye, glm::dvec3 object, glm::dvec3 start) const {
+    glm::dvec3 q = start;
+    for (int i = 0; i < 50; ++i) {
+      const glm::dvec3 n = normalAt(q);
+      const glm::dvec3 t = glm::normalize(glm::cross(n, glm::dvec3(0.3, 0.5, 0.8)));
+      const glm::dvec3 u = glm::cross(n, t);
+      const auto at = [&](glm::dvec2 s) {
+        const glm::dvec3 moved = q + s.x * t + s.y * u;
+        return flat() ? moved : centre() + radius * glm::normalize((moved - centre()) / radius);
+      };
+      const auto slope = [&](glm::dvec2 s) {
+        const glm::dvec3 p = at(s);
+        const glm::dvec3 pull = glm::normalize(p - eye) + glm::normalize(p - object);
+        const glm::dvec3 along = pull - glm::dot(pull, normalAt(p)) * normalAt(p);
+        return glm::dvec2(glm::dot(along, t), glm::dot(along, u));
+      };
+      constexpr double kStep = 1e-6;
+      const glm::dvec2 here = slope({});
+      const glm::dmat2 jacobian((slope({kStep, 0.0}) - slope({-kStep, 0.0})) / (2.0 * kStep),
+                                (slope({0.0, kStep}) - slope({0.0, -kStep})) / (2.0 * kStep));
+      glm::dvec2 step = -glm::inverse(jacobian) * here;
+      step *= std::min(1.0, 0.05 / std::max(glm::length(step), 1e-12));
+      q = at(step);
+      if (glm::length(step) < 1e-10) return q;
+    }
+    return std::nullopt;
+  }
+};
+
+FrameDescription zoomed(FrameDescription camera) {
+  const glm::dvec2 scale = 2.0 * kPixels / glm::dvec2(kSize);
+  for (glm::mat4* projection : {&camera.projection, &camera.previousProjection}) {
+    (*projection)[0][0] = static_cast<float>(scale.x);
+    (*projection)[1][1] = static_cast<float>(scale.y);
+  }
+  return camera;
+}
+
+/// A frame of specular light. What is reflected lies at one distance from all pixels.
+HostFrame specularFrame(const Scene& scene, const FrameDescription& camera, double distance, double roughness) {
+  HostFrame frame = renderFrame(scene, camera, kSize, smoothLight, Noise::None);
+  frame.conventions.specular = true;
+  frame.lightAlpha = Image<double>(kSize, distance);
+  frame.roughness = Image<double>(kSize, std::round(255.0 * roughness) / 255.0);
+  return frame;
+}
+
+/// A method, or the stage alone on given guides, on a device frame by frame, with the stage's views.
+class ReflectionRun {
+ public:
+  ReflectionRun(const fg::test::TestDevice& device, Denoiser& method)
+      : inputs_(importInputs(graph_, kSize, {.specular = true})), output_(importOutput(graph_, kSize)) {
+    wantViews();
+    graph_.exported(method.add({graph_, inspection_}, inputs_, output_), fg::vk::kReadable);
+    start(device);
+  }
+  /// Of the stage. The output is the confidence.
+  ReflectionRun(const fg::test::TestDevice& device, const SceneDescription& scene)
+      : inputs_(importInputs(graph_, kSize, {.specular = true})), guides_(importGuides(graph_, kSize)) {
+    inputs_.scene = scene;
+    wantViews();
+    output_ =
+        copyOut(graph_, "confidence", addReflectionMotion({graph_, inspection_}, inputs_, guides_, {}).confidence);
+    start(device);
+  }
+  void frame(const HostFrame& frame) {
+    upload(*run_, inputs_, frame);
+    run_->frame();
+  }
+  void frame(const HostFrame& frame, const Image<Guide>& guides, const Image<Guide>& previous) {
+    upload(*run_, guides_, guides);
+    uploadPrevious(*run_, guides_, previous);
+    this->frame(frame);
+  }
+  void reset() { run_->executor().resetAllHistory(); }
+  [[nodiscard]] Image<glm::dvec3> view(std::size_t index) const {
+    const std::vector<float> texels = run_->texels<float>(inspection_.views()[index].texture);
+    Image<glm::dvec3> image(kSize);
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+      image.pixels()[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
+    return image;
+  }
+  [[nodiscard]] Image<glm::dvec4> output() const { return readHalves(*run_, output_, kSize); }
+
+ private:
+  void wantViews() {
+    const fg::Extent extent{static_cast<std::uint32_t>(kSize.x), static_cast<std::uint32_t>(kSize.y)};
+    for (const char* const view : {"reflection-motion", "reflection-history"})
+      inspection_.want(view,
+                       graph_.import(std::string("view of ") + view, {kViewFormat, extent}, fg::vk::kOverwritable));
+  }
+  void start(const fg::test::TestDevice& device) {
+    for (const DebugView& view : inspection_.views()) graph_.exported(view.texture, fg::vk::kReadable);
+    run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
+  }
+
+  fg::Graph graph_;
+  DenoiserInputs inputs_;
+  Guides guides_;
+  fg::Texture output_;
+  Inspection inspection_;
+  std::unique_ptr<fg::test::GraphRun> run_;
+};
+
+class ReflectionMotionTest : public fg::test::GpuTest {};
+
+/// Cameras of two frames, a few pixels of motion apart.
+struct Walk {
+  FrameDescription first;
+  FrameDescription second;
+};
+Walk walk(glm::dvec3 step, bool jitter) {
+  Walk cameras{zoomed(cameraAt(-step, -2.0 * step, kSize, 0)), zoomed(cameraAt({}, -step, kSize, 1))};
+  if (jitter) cameras = {jittered(cameras.first, 3), jittered(cameras.second, 4)};
+  return cameras;
+}
+
+/// The exact motion of what a pixel of the second frame reflects.
+std::optional<glm::dvec2> exactMotion(const Mirror& mirror, const HostFrame& frame, glm::dvec3 step, double distance,
+                                      glm::ivec2 p) {
+  const glm::dvec3 ray = reference::rayThrough(frame.constants.rayFromPixel, reference::pixelCentre(p));
+  const auto t = mirror.hit({}, ray);
+  if (!t) return std::nullopt;
+  const glm::dvec3 point = *t * ray;
+  const glm::dvec3 object = point + distance * glm::reflect(glm::normalize(ray), mirror.normalAt(point));
+  const auto q = mirror.reflecting(-step, object, point);
+  if (!q || glm::distance(*q, point) > 0.1) return std::nullopt;
+  const glm::dvec3 seen = *q + step;
+  const glm::dvec4 before(frame.constants.previousRayFromPixel);
+  const glm::dvec2 shown = (glm::dvec2(seen) / -seen.z - glm::dvec2(before.z, before.w)) / glm::dvec2(before);
+  return shown - glm::dvec2(frame.constants.jitterDelta) - reference::pixelCentre(p);
+}
+
+struct OpticsCase {
+  const char* name;
+  Mirror mirror;
+  double distance;  ///< Of what is reflected.
+  // Largest errors in pixels.
+  double mean;
+  double worst;  ///< Of 99 in 100.
+};
+
+// Where the errors come from: kept motion errs by up to 1/256 of a pixel at 2 to 4. Normals are halves, whose
+// components err by up to 2^-12. On a flat mirror that error is the same everywhere and cancels. On a curved one it
+// turns the mirrored ray by up to 2 sqrt(2) 2^-12 = 7e-4 radians, differently from pixel to pixel; over the turn from
+// one pixel to the next, which is 1/kPixels (1 + 2 distance / (radius cos)) = 1.5e-3 (radius 5) to 1.2e-2 (radius 0.3),
+// this is half a pixel to a sixteenth at most. A fifth of the most is allowed for the mean, and half of it, or a bit
+// more, for 99 in 100.
+TEST_F(ReflectionMotionTest, AgreesWithOptics) {
+  const OpticsCase cases[]{
+      {"flat", {kInfinity, 0.4}, 1.5, 0.01, 0.02},
+      {"flat, far", {kInfinity, 1.0}, 50.0, 0.01, 0.02},
+      {"flat, grazing", {kInfinity, 1.45}, 0.3, 0.01, 0.02},
+      {"convex, radius 0.3", {0.3, 0.4}, 1.0, 0.03, 0.08},
+      {"convex, radius 1", {1.0, 0.8}, 3.0, 0.12, 0.3},
+      {"convex, radius 5", {5.0, 0.5}, 0.8, 0.12, 0.3},
+      {"concave, before the focus", {-3.0, 0.3}, 0.5, 0.12, 0.3},
+      {"concave, beyond the focus", {-1.0, 0.3}, 2.5, 0.12, 0.3},
+  };
+  const auto method = makeDenoiser("accumulate");
+  ReflectionRun run(device(), *method);
+  const glm::dvec3 step(0.006, -0.004, 0.003);
+  for (const bool jitter : {false, true}) {
+    for (const OpticsCase& c : cases) {
+      SCOPED_TRACE(std::string(c.name) + (jitter ? ", jitter" : ""));
+      const Walk cameras = walk(step, jitter);
+      run.reset();
+      run.frame(specularFrame(c.mirror.scene(), cameras.first, c.distance, 0.1));
+      const HostFrame frame = specularFrame(c.mirror.scene(), cameras.second, c.distance, 0.1);
+      run.frame(frame);
+      const Image<glm::dvec3> motion = run.view(0);
+      std::vector<double> errors;
+      double surface = 0.0;
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        const auto exact = exactMotion(c.mirror, frame, step, c.distance, p);
+        if (!exact) return;
+        const glm::dvec2 there = reference::pixelCentre(p) + *exact;
+        if (there.x < 2.0 || there.y < 2.0 || there.x > kSize.x - 2.0 || there.y > kSize.y - 2.0) return;
+        errors.push_back(glm::distance(glm::dvec2(motion[p]), *exact));
+        surface += glm::distance(glm::dvec2(frame.motion[p]) - glm::dvec2(frame.constants.jitterDelta), *exact);
+      });
+      ASSERT_GT(errors.size(), 1000U);
+      std::ranges::sort(errors);
+      double sum = 0.0;
+      for (const double e : errors) sum += e;
+      const auto count = static_cast<double>(errors.size());
+      RecordProperty(std::string(c.name) + (jitter ? ", jitter" : ""), std::to_string(sum / count));
+      EXPECT_LT(sum / count, c.mean);
+      EXPECT_LT(errors[errors.size() * 99 / 100], c.worst);
+      EXPECT_GT(surface / count, 5.0 * c.mean);
+    }
+  }
+}
+
+// Kept motion has 9 bits, so that it errs by up to 1/64 of a pixel here, and the surface's, from which the image's is
+// counted, by as much. The rest is single precision, which Newton's method multiplies.
+constexpr double kMotionTolerance = 0.04;
+// The two candidates of so many pixels miss alike, within a hundredth, or are tested next to a threshold.
+constexpr double kUndecided = 0.03;
+
+TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
+  const Scene worlds[]{sphere(), bumpyWall(0.1), Mirror{0.5, 0.7}.scene(), Mirror{-1.0, 0.3}.scene()};
+  for (const bool objectMotion : {false, true}) {
+    const SceneDescription description{.objectMotion = objectMotion};
+    ReflectionRun run(device(), description);
+    for (const Scene& world : worlds) {
+      for (const double roughness : {0.0, 0.2, 0.45, 1.0}) {
+        const std::size_t number = static_cast<std::size_t>(&world - worlds);
+        if (objectMotion && number % 2 == 1) continue;
+        SCOPED_TRACE("world " + std::to_string(number) + ", roughness " + std::to_string(roughness));
+        const bool zoom = number >= 2;
+        const glm::dvec3 step = zoom ? glm::dvec3(0.005, -0.004, 0.003) : glm::dvec3(0.09, 0.04, -0.03);
+        const auto camera = [&](std::uint32_t i) {
+          const FrameDescription at = jittered(cameraAt(double(i) * step, (i - 1.0) * step, kSize, i), i);
+          return zoom ? zoomed(at) : at;
+        };
+        HostFrame first = specularFrame(world, camera(0), 1.5, roughness);
+        HostFrame second = specularFrame(world, camera(1), 1.5, roughness);
+        second.scene = description;
+        reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+          second.lightAlpha[p] = (p.x + p.y) % 3 == 0 ? 0.0 : 1.0 + 0.5 * (p.x % 2);  // Distances, or no sample.
+        });
+        const Image<Guide> before = reference::prepareGuides(first, reference::Storage::Quantised);
+        const Image<Guide> guides = reference::prepareGuides(second, reference::Storage::Quantised);
+        run.reset();
+        run.frame(first, before, Image<Guide>(kSize));
+        run.frame(second, guides, before);
+        const Image<reference::Reflected> expected =
+            reference::reflectionMotion(second, guides, {before, first.roughness}, {}, {});
+        const Image<glm::dvec3> motion = run.view(0);
+        const Image<glm::dvec3> history = run.view(1);
+        const Image<glm::dvec4> confidence = run.output();
+        Comparison comparison("motion of reflections");
+        reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+          const reference::Reflected& e = expected[p];
+          if (guides[p].depth == 0.0 || comparison.skips(e.undecided)) return;
+          comparison.value(p, "x", motion[p].x, e.motion.x, kMotionTolerance);
+          comparison.value(p, "y", motion[p].y, e.motion.y, kMotionTolerance);
+          comparison.value(p, "image", motion[p].z, e.image ? 1.0 : 0.0, 0.0);
+          if (e.history == 0.0) return;  // There are no history taps.
+          comparison.value(p, "history", history[p].x, e.history, 0.02 * e.history);
+          comparison.value(p, "confidence", confidence[p].x, e.history / 16.0, 0.02 + 1.0 / 255.0);
+        });
+        comparison.expect(kUndecided);
+      }
+    }
+  }
+}
+
+// Light that depends only on the direction in which it is reflected: it stays at its place in the image.
+TEST_F(ReflectionMotionTest, AccumulatesAlongTheImage) {
+  const Mirror mirror{1.0, 0.6};
+  constexpr double kDistance = 2.0;
+  const glm::dvec3 step(0.008, -0.005, 0.002);
+  const auto error = [&](const char* surfaceFrom) {
+    const auto method = makeDenoiser("accumulate");
+    method->set("reflection.surface-from", surfaceFrom);
+    ReflectionRun run(device(), *method);
+    HostFrame frame;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const glm::dvec3 eye = double(i) * step;
+      frame = specularFrame(mirror.scene(), zoomed(cameraAt(eye, eye - step, kSize, i)), kDistance, 0.1);
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        const glm::dvec3 ray = reference::rayThrough(frame.constants.rayFromPixel, reference::pixelCentre(p));
+        const auto t = mirror.hit(eye, ray);
+        if (!t) return;
+        const glm::dvec3 point = eye + *t * ray;
+        const glm::dvec3 object = point + kDistance * glm::reflect(glm::normalize(ray), mirror.normalAt(point));
+        frame.lighting[p] = 1.0 + glm::sin(40.0 * object);
+      });
+      run.frame(frame);
+    }
+    return surfaceError(run.output(), frame);
+  };
+  const double followed = error("0.5");
+  const double surface = error("0");
+  RecordProperty("followed", std::to_string(followed));
+  RecordProperty("surface", std::to_string(surface));
+  EXPECT_LT(followed, 0.3 * surface);
+}
+
+TEST_F(ReflectionMotionTest, HardCasesAreFinite) {
+  const auto method = makeDenoiser("accumulate");
+  ReflectionRun run(device(), *method);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Mirror& mirror :
+       {Mirror{kInfinity, 1.55}, Mirror{0.02, 0.0}, Mirror{-0.05, 1.2}, Mirror{kInfinity, 0.0}}) {
+    run.reset();
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const glm::dvec3 eye = double(i) * glm::dvec3(0.005, 0.003, -0.002);
+      HostFrame frame = specularFrame(mirror.scene(), zoomed(cameraAt(eye, eye, kSize, i)), 1.0, 0.0);
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        const double distances[]{0.0, 1e-7, 1.0, 6e4, kInfinity, nan, -1.0};
+        frame.lightAlpha[p] = distances[(p.x / 3 + p.y / 3) % 7];
+        frame.roughness[p] = double((p.x / 5) % 3) / 2.0;
+        if ((p.x + p.y) % 13 == 0) frame.motion[p] = glm::dvec3(nan, kInfinity, 0.0);
+      });
+      run.frame(frame);
+      const Image<glm::dvec4> output = run.output();
+      const Image<glm::dvec3> motion = run.view(0);
+      const Image<glm::dvec3> history = run.view(1);
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        for (const glm::dvec3& v : {glm::dvec3(output[p]), motion[p], history[p]})
+          EXPECT_TRUE(reference::isFinite(v)) << p.x << " " << p.y;
+      });
+    }
+  }
+}
+
+TEST(SpecularLight, IsRefusedByNameWhereAMethodCannotTakeIt) {
+  for (const std::string& name : denoiserNames()) {
+    const auto views = [&] { return makeDenoiser(name)->views({.specular = true}); };
+    if (name == "accumulate" || name == "none") {
+      EXPECT_NO_THROW((void)views());
+      continue;
+    }
+    try {
+      (void)views();
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "method '" + name + "' takes diffuse light only; methods that take specular light: accumulate, none");
+    }
+  }
+  const auto method = makeDenoiser("accumulate");
+  EXPECT_THROW((void)method->views({.specular = true, .light = {.columns = 2}}), std::invalid_argument);
+  method->set("accumulation.rejection", "depth");
+  EXPECT_THROW((void)method->views({.specular = true}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace walr::test
