@@ -108,14 +108,23 @@ std::string viewList(const std::vector<ViewInfo>& views) {
   return text;
 }
 
-void listViews(const MethodOptions& options) {
-  const std::vector<ViewInfo> views = makeMethod(options)->views();
-  std::cout << "method " << options.name << " has " << (views.empty() ? "no views" : "these views") << viewList(views)
-            << '\n';
+/// @throws UsageError if the method does not take the light
+std::vector<ViewInfo> viewsOf(const DenoiseOptions& options, Denoiser& method) {
+  try {
+    return method.views({.specular = options.light == "specular"});
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void listViews(const DenoiseOptions& options) {
+  const std::vector<ViewInfo> views = viewsOf(options, *makeMethod(options.method));
+  std::cout << "method " << options.method.name << " has " << (views.empty() ? "no views" : "these views")
+            << viewList(views) << '\n';
 }
 
 void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
-  const std::vector<ViewInfo> views = method.views();
+  const std::vector<ViewInfo> views = viewsOf(options, method);
   for (const std::string& wanted : options.views) {
     const auto isWanted = [name = wanted.substr(0, wanted.find('.'))](const ViewInfo& view) {
       return view.name == name;
@@ -128,6 +137,17 @@ void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
   }
 }
 
+/// @throws UsageError naming an option that is about diffuse light
+void refuseWithSpecularLight(const DenoiseOptions& options) {
+  const auto refuse = [](const std::string& option) {
+    throw UsageError("--light specular: " + option + " is about diffuse light; leave out one of them");
+  };
+  if (options.output.composite) refuse("--composite");
+  if (options.average > 1) refuse("--average");
+  if (options.lightDirection) refuse("--light-direction");
+  if (!options.sequence.keptLight.everyPixel()) refuse("--light-rate");
+}
+
 /// The value of --light, or its default.
 std::string chosenLight(const DenoiseOptions& options) {
   const bool directIsReference = options.directLight == "reference";
@@ -136,12 +156,14 @@ std::string chosenLight(const DenoiseOptions& options) {
     throw UsageError("--direct-light reference takes the direct light of lit images from the reference, and --light " +
                      options.light + " denoises that of the frames: leave out one of them");
   }
+  if (options.light == "specular") refuseWithSpecularLight(options);
   return options.light;
 }
 
 /// The lights that a value of --light names.
 std::vector<Light> lightsOf(const std::string& light) {
   std::vector<Light> lights;
+  if (light == "specular") return {Light::Specular};
   if (light != "direct") lights.push_back(Light::Indirect);
   if (light != "indirect") lights.push_back(Light::Direct);
   return lights;
@@ -164,7 +186,9 @@ SettingsText settingsOf(Denoiser& method) {
 LightWish lightsToRead(const OutputOptions& output, std::span<const Light> denoised) {
   if (output.composite) return kWholePicture;
   const auto isDenoised = [&](Light light) { return std::ranges::find(denoised, light) != denoised.end(); };
-  return {.indirect = isDenoised(Light::Indirect), .direct = isDenoised(Light::Direct)};
+  return {.indirect = isDenoised(Light::Indirect),
+          .direct = isDenoised(Light::Direct),
+          .specular = isDenoised(Light::Specular)};
 }
 
 /// Says once what a composite consists of beside the denoised lights.
@@ -312,9 +336,9 @@ void registerDenoise(CLI::App& program) {
                           "Folder of frames: Blender Cycles' multi-layer EXR with cameras.json, or walr's own layout "
                           "(samples/docs/sequences.md); files whose names start with 'ref' are references");
   input->type_name("DIR");
-  CLI::Option* output = command->add_option(
-      "-o,--output", options->output.directory,
-      "Folder for denoised_FFFF.exr: half float, Indirect.{R,G,B} and Direct.{R,G,B}, demodulated; created if missing");
+  CLI::Option* output = command->add_option("-o,--output", options->output.directory,
+                                            "Folder for denoised_FFFF.exr: half float, Indirect.{R,G,B}, "
+                                            "Direct.{R,G,B} or Specular.{R,G,B}, demodulated; created if missing");
   output->type_name("DIR");
   addMethodOptions(*command, options->method);
   command->add_option("--frames", options->frames, "First and last frame to denoise; default: all")->type_name("A-B");
@@ -340,10 +364,11 @@ void registerDenoise(CLI::App& program) {
                     "SlopeX.{R,G,B} to SlopeZ.{R,G,B}; method walr. Of the indirect light, if it is denoised");
   command
       ->add_option("--light", options->light,
-                   "Diffuse light to denoise: indirect, direct, or both, each by itself; default: indirect, and both "
-                   "with --composite. Views and counters are those of the indirect light, if it is denoised")
-      ->check(CLI::IsMember({"indirect", "direct", "both"}))
-      ->option_text("indirect|direct|both");
+                   "Light to denoise: the indirect or the direct part of diffuse light, or both, each by itself; or "
+                   "specular light, method accumulate. Default: indirect, and both with --composite. Views and "
+                   "counters are those of the indirect light, if it is denoised")
+      ->check(CLI::IsMember({"indirect", "direct", "both", "specular"}))
+      ->option_text("indirect|direct|both|specular");
   command->add_flag(
       "--composite", options->output.composite,
       "Also write the lit image as R,G,B: albedo * (direct + indirect), emission, and the light that is "
@@ -395,7 +420,7 @@ void registerDenoise(CLI::App& program) {
       return;
     }
     if (options->listViews) {
-      listViews(options->method);
+      listViews(*options);
       return;
     }
     for (const CLI::Option* option : {input, output}) {

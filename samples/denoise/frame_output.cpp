@@ -38,11 +38,12 @@ const Reference& referenceOf(const Frame& frame) {
 
 /// Errors of a light.
 /// @param half  mean of half of the samples of `reference`; may be empty
+/// @param albedo  of the lobe that reflects the light
 LightErrors errorsOf(const Image& denoised, const Image& noisy, const Image& reference, const Image& half,
-                     const Frame& frame) {
+                     const Image& albedo, const Frame& frame) {
   LightErrors errors;
   if (denoised.empty() || reference.empty()) return errors;
-  const PixelMask mask = diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, reference);
+  const PixelMask mask = diffuseMask(albedo, frame.normal, frame.depth, kSkyDepth, reference);
   errors.denoised = compare(denoised, reference, mask);
   errors.noisy = compare(noisy, reference, mask);
   if (!half.empty()) errors.referenceNoise = referenceNoise(reference, half, mask);
@@ -123,6 +124,7 @@ void FrameWriter::writePictures(const DenoisedFrame& shown, const std::vector<Im
   };
   addLight(options_.indirectPlane, frame.indirect, shown.indirect, referenceOf(frame).indirect);
   addLight(options_.directPlane, frame.direct, shown.direct, referenceOf(frame).direct);
+  addLight("Specular", frame.specular, shown.specular, referenceOf(frame).specular);
   writeExr(path("denoised", frame), channels, {}, frame.place);
   if (options_.png) writePngs(frame, rows);
 }
@@ -155,11 +157,15 @@ FrameReport measure(const DenoisedFrame& denoised, const DenoisedFrame& shown) {
   report.frame = frame.number;
   report.resetHistory = frame.resetHistory;
   report.gpuMilliseconds = denoised.gpuMilliseconds;
-  report.nonFiniteOutput = countNonFinite(denoised.indirect) + countNonFinite(denoised.direct);
+  report.nonFiniteOutput =
+      countNonFinite(denoised.indirect) + countNonFinite(denoised.direct) + countNonFinite(denoised.specular);
   report.counters = denoised.counters;
   const Reference& reference = referenceOf(frame);
-  report.indirect = errorsOf(shown.indirect, frame.indirect, reference.indirect, reference.indirectHalf, frame);
-  report.direct = errorsOf(shown.direct, frame.direct, reference.direct, {}, frame);
+  report.indirect =
+      errorsOf(shown.indirect, frame.indirect, reference.indirect, reference.indirectHalf, frame.albedo, frame);
+  report.direct = errorsOf(shown.direct, frame.direct, reference.direct, {}, frame.albedo, frame);
+  report.specular =
+      errorsOf(shown.specular, frame.specular, reference.specular, reference.specularHalf, frame.specularAlbedo, frame);
   return report;
 }
 

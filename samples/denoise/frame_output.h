@@ -27,6 +27,7 @@ struct DenoisedFrame {
   Frame frame;
   Image indirect;  ///< 3 components: denoised demodulated diffuse indirect radiance; empty if it is not denoised.
   Image direct;    ///< The same of direct radiance.
+  Image specular;  ///< The same of `Frame::specular`.
   std::optional<double> gpuMilliseconds;
   std::vector<ViewPicture> views;
   std::vector<CounterValue> counters;

@@ -85,6 +85,7 @@ struct GpuDenoiser::State {
       lighting.push_back(makeUpload(gpu, light.lighting, framesInFlight));
       outputs.push_back(graph.readBack(light.output));
     }
+    if (layout.conventions.specular) roughness.emplace(makeUpload(gpu, declared.inputs.roughness, framesInFlight));
     if (objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
     for (const DebugView& view : declared.views) views.push_back(graph.readBack(view.texture));
     if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
@@ -110,6 +111,7 @@ struct GpuDenoiser::State {
   UploadedTexture normal;
   UploadedTexture motion;
   UploadedTexture albedo;
+  std::optional<UploadedTexture> roughness;
   std::optional<UploadedTexture> objectId;
   std::vector<ReadbackGraph::Index> outputs;  ///< Of each light.
   std::vector<ReadbackGraph::Index> views;
@@ -147,6 +149,7 @@ void GpuDenoiser::State::submit(const PackedFrame& packed, std::span<const Light
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);
   albedo.upload(recorded, packed.albedo);
+  if (roughness) roughness->upload(recorded, packed.roughness);
   if (objectId) objectId->upload(recorded, packed.objectId);
   graph.submit(recorded);
 }

@@ -50,6 +50,7 @@ std::optional<DenoisedFrame> LightDenoisers::finish() {
   std::optional<DenoisedFrame> done = first_.finish();
   if (!done) return done;
   if (light_ == Light::Direct) std::swap(done->indirect, done->direct);
+  if (light_ == Light::Specular) std::swap(done->indirect, done->specular);
   if (direct_) {
     DenoisedPicture direct = direct_->finishPicture();
     if (done->gpuMilliseconds) *done->gpuMilliseconds += direct.milliseconds().value_or(0.0);

@@ -33,7 +33,7 @@ class LightDenoisers {
  public:
   /// For errors and for the other parameters see `GpuDenoiser`.
   /// @param lights  the lights to denoise: one, or the indirect and the direct light. The views and counters are those
-  ///                of the first
+  ///                of the first. Specular light comes alone, and `layout` says so
   LightDenoisers(const GpuDevice& device, std::span<const LightMethod> lights, fg::Extent extent, const Layout& layout,
                  const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds);
 

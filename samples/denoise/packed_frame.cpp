@@ -1,6 +1,7 @@
 #include "samples/denoise/packed_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -46,9 +47,27 @@ std::vector<std::uint32_t> packNumbers(const Image& image) {
   return numbers;
 }
 
+std::vector<Rgba16> packSpecular(const Frame& frame) {
+  std::vector<Rgba16> texels = packRgba16(frame.specular);
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i][3] = toHalf(frame.specularDistance.values()[i]).bits();
+  return texels;
+}
+
+/// As R8_UNORM; 1 where it is not finite.
+std::vector<std::uint8_t> packUnorm8(const Image& image) {
+  std::vector<std::uint8_t> texels;
+  texels.reserve(image.pixelCount());
+  for (const float value : image.values()) {
+    const float bounded = value >= 0.0F ? std::min(value, 1.0F) : (value < 0.0F ? 0.0F : 1.0F);
+    texels.push_back(static_cast<std::uint8_t>(std::lround(255.0F * bounded)));
+  }
+  return texels;
+}
+
 }  // namespace
 
 std::vector<Rgba16> packLight(const Frame& frame, Light light) {
+  if (light == Light::Specular) return packSpecular(frame);
   const Image& full = light == Light::Indirect ? frame.indirect : frame.direct;
   if (frame.light.everyPixel()) return packRgba16(full);
   const fg::Extent extent =
@@ -69,7 +88,9 @@ PackedFrame packFrame(Frame frame, Light light) {
   packed.lighting = packLight(frame, light);
   packed.normal = packRgba16(frame.normal);
   packed.motion = packRgba16(frame.motion);
-  packed.albedo = packRgba16(frame.albedo);
+  const bool specular = light == Light::Specular;
+  packed.albedo = packRgba16(specular ? frame.specularAlbedo : frame.albedo);
+  if (specular) packed.roughness = packUnorm8(frame.roughness);
   packed.objectId = packNumbers(frame.objectId);
   packed.frame = std::move(frame);
   return packed;

@@ -19,7 +19,8 @@ struct PackedFrame {
   std::vector<Rgba16> lighting;
   std::vector<Rgba16> normal;
   std::vector<Rgba16> motion;
-  std::vector<Rgba16> albedo;
+  std::vector<Rgba16> albedo;           ///< Of the lobe that reflects the light.
+  std::vector<std::uint8_t> roughness;  ///< 255: 1; empty unless the light is specular.
   std::vector<std::uint32_t> objectId;  ///< 0xffffffff: no object; empty if the frame has no object numbers.
 };
 
@@ -34,6 +35,7 @@ Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
 PackedFrame packFrame(Frame frame, Light light = Light::Indirect);
 
 /// The texels of one light of a frame: of the pixels that have a sample. Those of samples outside the image are 0.
+/// Alpha is the distance of specular light.
 std::vector<Rgba16> packLight(const Frame& frame, Light light);
 
 /// A frame's camera in the form that the passes use.

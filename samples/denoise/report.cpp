@@ -33,6 +33,7 @@ void addMeasurements(Json& object, const FrameReport& frame) {
   object["gpu_ms"] = number(frame.gpuMilliseconds);
   addErrors(object, frame.indirect);
   addErrors(object["direct"], frame.direct);
+  addErrors(object["specular"], frame.specular);
 }
 
 Json settingsJson(const SettingsText& settings) {
@@ -69,7 +70,9 @@ struct MeasuredLight {
 };
 
 std::vector<MeasuredLight> measuredLights(const std::vector<FrameReport>& frames) {
-  std::vector<MeasuredLight> lights{{"indirect light", &FrameReport::indirect}, {"direct light", &FrameReport::direct}};
+  std::vector<MeasuredLight> lights{{"indirect light", &FrameReport::indirect},
+                                    {"direct light", &FrameReport::direct},
+                                    {"specular light", &FrameReport::specular}};
   std::erase_if(lights, [&](const MeasuredLight& light) {
     return std::ranges::none_of(
         frames, [&](const FrameReport& frame) { return (frame.*light.errors).denoised.rmse.has_value(); });
@@ -160,6 +163,7 @@ FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first
   }
   mean.indirect = meanErrors(frames, first, &FrameReport::indirect);
   mean.direct = meanErrors(frames, first, &FrameReport::direct);
+  mean.specular = meanErrors(frames, first, &FrameReport::specular);
   if (timed > 0) {
     mean.gpuMilliseconds = milliseconds / static_cast<double>(timed);
   }
@@ -206,7 +210,8 @@ void printReport(std::ostream& stream, const DenoiseReport& report) {
     }
   }
   if (!lights.empty()) {
-    stream << "Errors are after the tone map x/(1+x), over pixels of surfaces with a diffuse albedo of at least 0.01; "
+    stream << "Errors are after the tone map x/(1+x), over pixels of surfaces whose albedo for the light is at least "
+              "0.01; "
               "PSNR in dB against a peak of 1; SSIM with an 11x11 Gaussian window.\n";
   }
   printCounters(stream, report.frames);

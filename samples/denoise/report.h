@@ -35,6 +35,7 @@ struct FrameReport {
   std::optional<double> gpuMilliseconds;  ///< All passes, from timestamps; absent if the queue has no timestamps.
   LightErrors indirect;
   LightErrors direct;
+  LightErrors specular;
   std::size_t nonFiniteOutput = 0;     ///< Number of non-finite values in the result.
   std::vector<CounterValue> counters;  ///< The same names in every frame; empty unless counters were requested.
 };
@@ -45,12 +46,12 @@ using SettingsText = std::vector<std::pair<std::string, std::string>>;
 /// A run's method, device, input and measurements.
 struct DenoiseReport {
   std::string method;
-  SettingsText settings;  ///< Of the indirect light, or of the direct light if only that is denoised.
+  SettingsText settings;  ///< Of the indirect light, or of the light that is denoised by itself.
   std::string device;
   std::string driver;
   bool softwareDevice = false;
   std::string layout;
-  std::string light = "indirect";  ///< Which light is denoised: indirect, direct or both.
+  std::string light = "indirect";  ///< Which light is denoised: indirect, direct, both of them, or specular.
   fg::Extent extent;               ///< Of the frames.
   std::vector<FrameReport> frames = {};
   SettingsText directSettings = {};  ///< Of the direct light, if both are denoised.

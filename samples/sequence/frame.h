@@ -29,10 +29,11 @@ struct Camera {
   bool cut = false;              ///< This frame follows a camera cut: no history of the frame before is used.
 };
 
-/// The two parts of diffuse light.
+/// A light of a frame: the two parts of diffuse light, and specular light.
 enum class Light {
   Indirect,  ///< That bounced at least once before it arrived at the surface.
   Direct,    ///< That arrived from lamps and the sky.
+  Specular,  ///< `Frame::specular`.
 };
 
 /// The light of a frame with many samples per pixel. A pixel with NaN in all components has no reference.

@@ -111,6 +111,7 @@ Image& imageOf(Frame& frame, Role role) {
   return frame.objectId;
 }
 
+/// Of diffuse light.
 Role roleOf(Light light) {
   return light == Light::Indirect ? Role::Indirect : Role::Direct;
 }
@@ -304,6 +305,7 @@ std::string RecognizedLayout::plane(std::string_view name) const {
 }
 
 std::string RecognizedLayout::plane(Light light) const {
+  if (light == Light::Specular) return plane(layout->specular.front().name);
   return plane(planeOf(*layout, roleOf(light)).name);
 }
 
@@ -365,6 +367,12 @@ RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const Chann
 }
 
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
+  if (wanted.onlySpecular() && !layout.specular) {
+    throw InputError(
+        file.path().string() + ": no specular light (channels Specular.R, ... of walr's own layout; layout: " +
+        std::string(layout.layout->name) +
+        "). Render with 'walr render --specular', or denoise diffuse light. Channels found: " + join(file.channels()));
+  }
   std::vector<Plane> planes;
   std::ranges::copy_if(layout.layout->planes, std::back_inserter(planes),
                        [&](const Plane& plane) { return isWanted(plane, wanted); });

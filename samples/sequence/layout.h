@@ -52,6 +52,9 @@ struct LightWish {
   bool direct = false;
   bool rest = false;      ///< Emission, and the lights that a composite adds.
   bool specular = false;  ///< Specular light and what belongs to it, if the files hold it.
+
+  /// Whether specular light is to be denoised: linters read it beside diffuse light.
+  [[nodiscard]] bool onlySpecular() const { return specular && !indirect && !direct; }
 };
 /// Everything that a composite consists of.
 inline constexpr LightWish kWholePicture{.indirect = true, .direct = true, .rest = true};

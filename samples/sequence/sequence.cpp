@@ -165,6 +165,7 @@ void Sequence::checkHeaders() {
       lossy_ = file.lossy();
       denoiserLayout_ =
           options_.motionDepth ? withMotionDepth(*layout_.layout, *options_.motionDepth, entry.file) : *layout_.layout;
+      denoiserLayout_.conventions.specular = options_.light.onlySpecular();
       displayWindow_ = file.displayWindow();
       place_ = file.dataWindow();
       if (layout_.layout->cameras == CameraSource::JsonFile) {
@@ -230,6 +231,7 @@ void Sequence::keepSomeLight() {
 }
 
 void Sequence::readLight(const ExrReader& file, Entry& entry) {
+  if (options_.light.onlySpecular()) return;  // Its samples are the pixels with a distance.
   const SparseLight light = readLightAttributes(file);
   if (&entry == &entries_.front()) denoiserLayout_.conventions.light = light.pattern;
   if (light.pattern != denoiserLayout_.conventions.light) {
