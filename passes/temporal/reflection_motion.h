@@ -12,7 +12,7 @@ namespace walr {
 /// Settings of the search for the place of reflected light in the previous frame.
 struct ReflectionMotionSettings {
   float surfaceFrom = 0.5F;
-  float historyPerLobe = 4.0F;
+  float historyPerLobe = 2.0F;
 
   void visit(SettingVisitor& v) {
     v.visit({"reflection.surface-from",
