@@ -367,9 +367,15 @@ RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const Chann
 }
 
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
-  if (wanted.onlySpecular() && !layout.specular) {
+  const auto holds = [&](Role role) {
+    return std::ranges::any_of(layout.layout->specular,
+                               [&](const Plane& plane) { return plane.role == role && hasPlane(file, layout, plane); });
+  };
+  if (wanted.onlySpecular() && !(holds(Role::Specular) && holds(Role::SpecularDistance) && holds(Role::Roughness))) {
     throw InputError(
-        file.path().string() + ": no specular light (channels Specular.R, ... of walr's own layout; layout: " +
+        file.path().string() +
+        ": no specular light with distances and roughness (Specular.R, SpecularDistance.Z, Roughness.Y and "
+        "others of walr's own layout; layout: " +
         std::string(layout.layout->name) +
         "). Render with 'walr render --specular', or denoise diffuse light. Channels found: " + join(file.channels()));
   }

@@ -45,7 +45,8 @@ layout(push_constant) uniform PushConstants {
 #include "temporal/reprojection.glsl"
 
 const float kNewtonUpTo = 0.3;            // Roughness.
-const float kLongestNewtonStep = 3.0;     // Pixels.
+const int kMostNewtonSteps = 3;
+const float kLongestNewtonStep = 8.0;     // Pixels.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
 const float kLeastDistance = 1e-3;        // Of what is reflected, over view depth.
 const float kMostNormalChange = 0.5;      // Between pixels that tell the curvature.
@@ -251,20 +252,24 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
 
     // Objects that move carry their images along.
     const vec2 imageAt = surfaceAt + imageOffset(p, own, inverseDistance);
-    const Before there = surfaceBefore(tapsAt(imageAt), surface, r.valid);
+    Before there = surfaceBefore(tapsAt(imageAt), surface, r.valid);
     Candidate image = candidateFrom(imageAt, there, objectBefore);
-    if (own.roughness <= kNewtonUpTo && there.whole) {
-      const vec2 nearer = imageAt + newtonStep(there, objectBefore) * frame.pixelFromPreviousPixel;
-      const Candidate stepped = candidateFrom(nearer, surfaceBefore(tapsAt(nearer), surface, r.valid), objectBefore);
-      if (stepped.miss < image.miss) image = stepped;
+    // No picture tells angles below half a pixel apart.
+    const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
+    // Still mirrors need one step. Moving ones need more, and as long as the miss shortens history, they take them.
+    for (int i = 0; i < kMostNewtonSteps && own.roughness <= kNewtonUpTo && there.whole; ++i) {
+      const vec2 nearer = image.position + newtonStep(there, objectBefore) * frame.pixelFromPreviousPixel;
+      there = surfaceBefore(tapsAt(nearer), surface, r.valid);
+      const Candidate stepped = candidateFrom(nearer, there, objectBefore);
+      if (!(stepped.miss < image.miss)) break;
+      image = stepped;
+      if (image.miss * constants.maxHistory <= allowed * constants.historyPerLobe) break;
     }
     if (image.miss < best.miss) {
       best = image;
       result.image = true;
       result.motion = keepableMotion(image.position - frame.jitterDelta - pixelCentre(p));
     }
-    // No picture tells angles below half a pixel apart.
-    const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
     result.miss = best.miss / allowed;
     result.history = min(constants.historyPerLobe / max(result.miss, 1e-6), constants.maxHistory);
   }

@@ -211,7 +211,9 @@ Reflected Search::find() {
 
   glm::dvec2 imageAt = surfaceAt + imageMotion(own, distance);
   double imageMiss = missAt(imageAt);
-  if (own.roughness <= 0.3 && whole) {
+  const double lobe = 2.0 * std::atan(own.roughness * own.roughness);
+  const double allowed = std::max(lobe, 0.5 * std::abs(double(frame_.constants.rayFromPixel.y)));
+  for (int i = 0; i < 3 && own.roughness <= 0.3 && whole; ++i) {
     // Newton's method on the miss, with differences over a pixel.
     const auto missBeyond = [&](glm::dvec2 beyond) { return miss(*shownAt(imageAt, surface, whole, beyond), object); };
     const glm::dvec3 m = missBeyond({});
@@ -219,13 +221,15 @@ Reflected Search::find() {
     const glm::dvec3 y = missBeyond({0.0, 1.0}) - m;
     const glm::dmat2 normal(glm::dot(x, x), glm::dot(x, y), glm::dot(x, y), glm::dot(y, y));
     glm::dvec2 step = -glm::inverse(normal) * glm::dvec2(glm::dot(x, m), glm::dot(y, m));
-    step *= std::min(1.0, 3.0 / glm::length(step));
+    step *= std::min(1.0, 8.0 / glm::length(step));
     const double stepped = missAt(imageAt + step);
     result_.undecided |= close(stepped, imageMiss, kCloseMiss);
-    if (stepped < imageMiss) {
-      imageMiss = stepped;
-      imageAt += step;
-    }
+    if (!(stepped < imageMiss)) break;
+    imageMiss = stepped;
+    imageAt += step;
+    const double full = allowed * double(reflection_.historyPerLobe) / double(settings_.maxHistory);
+    result_.undecided |= close(imageMiss, full, kCloseMiss);
+    if (imageMiss <= full) break;
   }
   // Rays that both hit differ by rounding only.
   const double rounding = 2e-5;
@@ -235,8 +239,7 @@ Reflected Search::find() {
     result_.image = true;
     result_.motion = imageAt - jitter - pixelCentre(p_);
   }
-  const double lobe = 2.0 * std::atan(own.roughness * own.roughness);
-  result_.miss = best / std::max(lobe, 0.5 * std::abs(double(frame_.constants.rayFromPixel.y)));
+  result_.miss = best / allowed;
   result_.history = std::min(double(reflection_.historyPerLobe) / result_.miss, double(settings_.maxHistory));
   return result_;
 }
