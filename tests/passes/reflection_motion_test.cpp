@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "passes/methods/denoiser.h"
 #include "passes/temporal/reflection_motion.h"
@@ -39,8 +40,12 @@ struct Mirror {
   double radius = 0.0;  ///< Above 0: convex; below 0: concave; infinite: flat.
   double tilt = 0.0;    ///< Radians.
   double distance = 2.0;
+  glm::dvec3 moved{0.0};   ///< Since the previous frame.
+  glm::dvec3 offset{0.0};  ///< Of the mirror from that place.
 
-  [[nodiscard]] glm::dvec3 point() const { return {0.0, 0.0, -distance}; }
+  /// The mirror of the previous frame.
+  [[nodiscard]] Mirror before() const { return {radius, tilt, distance, {}, offset - moved}; }
+  [[nodiscard]] glm::dvec3 point() const { return glm::dvec3(0.0, 0.0, -distance) + offset; }
   [[nodiscard]] glm::dvec3 axis() const { return {0.8 * std::sin(tilt), 0.6 * std::sin(tilt), std::cos(tilt)}; }
   [[nodiscard]] bool flat() const { return std::isinf(radius); }
   [[nodiscard]] glm::dvec3 centre() const { return point() - radius * axis(); }
@@ -64,7 +69,7 @@ struct Mirror {
     return [*this](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
       const auto t = hit(origin, direction);
       if (!t) return std::nullopt;
-      return SceneHit{.distance = *t, .shadingNormal = normalAt(origin + *t * direction)};
+      return SceneHit{.distance = *t, .shadingNormal = normalAt(origin + *t * direction), .moved = moved};
     };
   }
 
@@ -195,7 +200,7 @@ std::optional<glm::dvec2> exactMotion(const Mirror& mirror, const HostFrame& fra
   if (!t) return std::nullopt;
   const glm::dvec3 point = *t * ray;
   const glm::dvec3 object = point + distance * glm::reflect(glm::normalize(ray), mirror.normalAt(point));
-  const auto q = mirror.reflecting(-step, object, point);
+  const auto q = mirror.before().reflecting(-step, object, point - mirror.moved);
   if (!q || glm::distance(*q, point) > 0.1) return std::nullopt;
   const glm::dvec3 seen = *q + step;
   const glm::dvec4 before(frame.constants.previousRayFromPixel);
@@ -228,6 +233,7 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
       {"convex, radius 5", {5.0, 0.5}, 0.8, 0.12, 0.3},
       {"concave, before the focus", {-3.0, 0.3}, 0.5, 0.12, 0.3},
       {"concave, beyond the focus", {-1.0, 0.3}, 2.5, 0.12, 0.3},
+      {"moving", {0.5, 0.4, 2.0, {0.015, 0.005, 0.0}}, 1.0, 0.12, 0.3},
   };
   const auto method = makeDenoiser("accumulate");
   ReflectionRun run(device(), *method);
@@ -237,7 +243,7 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
       SCOPED_TRACE(std::string(c.name) + (jitter ? ", jitter" : ""));
       const Walk cameras = walk(step, jitter);
       run.reset();
-      run.frame(specularFrame(c.mirror.scene(), cameras.first, c.distance, 0.1));
+      run.frame(specularFrame(c.mirror.before().scene(), cameras.first, c.distance, 0.1));
       const HostFrame frame = specularFrame(c.mirror.scene(), cameras.second, c.distance, 0.1);
       run.frame(frame);
       const Image<glm::dvec3> motion = run.view(0);
@@ -246,12 +252,15 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         const auto exact = exactMotion(c.mirror, frame, step, c.distance, p);
         if (!exact) return;
-        const glm::dvec2 there = reference::pixelCentre(p) + *exact;
-        if (there.x < 2.0 || there.y < 2.0 || there.x > kSize.x - 2.0 || there.y > kSize.y - 2.0) return;
+        // Newton's method begins elsewhere, and that place must lie in the picture, too.
+        const double margin = c.mirror.moved == glm::dvec3(0.0) ? 2.0 : 8.0;
+        const glm::dvec2 inside = reference::pixelCentre(p) + *exact;
+        if (glm::any(glm::lessThan(inside, glm::dvec2(margin)))) return;
+        if (glm::any(glm::greaterThan(inside, glm::dvec2(kSize) - margin))) return;
         errors.push_back(glm::distance(glm::dvec2(motion[p]), *exact));
         surface += glm::distance(glm::dvec2(frame.motion[p]) - glm::dvec2(frame.constants.jitterDelta), *exact);
       });
-      ASSERT_GT(errors.size(), 1000U);
+      ASSERT_GT(errors.size(), 500U);
       std::ranges::sort(errors);
       double sum = 0.0;
       for (const double e : errors) sum += e;
