@@ -11,7 +11,7 @@ namespace walr {
 
 /// Settings of the search for the place of reflected light in the previous frame.
 struct ReflectionMotionSettings {
-  float surfaceFrom = 0.5F;
+  float surfaceFrom = 0.42F;
   float historyPerLobe = 2.0F;
 
   void visit(SettingVisitor& v) {
