@@ -11,7 +11,7 @@
 #include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::c_api_test {
 namespace {
 
 using reference::HostFrame;
@@ -234,4 +234,4 @@ TEST_F(CApi, MemoryEqualsThePlanAndTheAllocations) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::c_api_test

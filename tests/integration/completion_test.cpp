@@ -12,7 +12,7 @@
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/timeline.h"
 
-namespace walr::test {
+namespace walr::test::completion_test {
 namespace {
 
 using fg::test::expectContains;
@@ -129,4 +129,4 @@ TEST_F(Completion, ADeviceWithoutTimelineSemaphoresIsNamedOnlyIfTheyAreUsed) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::completion_test

@@ -14,7 +14,7 @@
 #include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::conventions_test {
 namespace {
 
 using reference::forEachPixel;
@@ -316,4 +316,4 @@ TEST_F(Conventions, OneSceneGivesOneResult) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::conventions_test

@@ -12,7 +12,7 @@
 #include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::dynamic_resolution_test {
 namespace {
 
 using reference::forEachPixel;
@@ -512,4 +512,4 @@ TEST_F(DynamicResolution, ResetDropsTheHistoryAtANewSizeAndNewSettingsKeepIt) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::dynamic_resolution_test

@@ -11,7 +11,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::half_arithmetic_test {
 namespace {
 
 constexpr glm::ivec2 kSize(64, 48);
@@ -77,4 +77,4 @@ TEST_F(HalfArithmeticTest, IsTakenIfTheCreateInfoEnablesIt) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::half_arithmetic_test

@@ -16,7 +16,7 @@
 #include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::history_test {
 namespace {
 
 using reference::forEachPixel;
@@ -266,4 +266,4 @@ TEST_F(History, AMethodWithoutItSaysSo) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::history_test

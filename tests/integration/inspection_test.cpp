@@ -14,7 +14,7 @@
 #include "integration/denoise_graph.h"
 #include "tests/error_text.h"
 
-namespace walr {
+namespace walr::inspection_test {
 namespace {
 
 constexpr fg::Extent kExtent{640, 720};
@@ -125,4 +125,4 @@ TEST(Inspection, ACounterSumsItsWords) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::inspection_test

@@ -13,7 +13,7 @@
 #include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::large_world_test {
 namespace {
 
 using reference::HostFrame;
@@ -123,4 +123,4 @@ TEST_F(LargeWorld, AnOriginThatIsNoNumberIsRefused) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::large_world_test

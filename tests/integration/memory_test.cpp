@@ -17,7 +17,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::memory_test {
 namespace {
 
 constexpr glm::ivec2 kSize(53, 37);
@@ -263,4 +263,4 @@ TEST_F(CApiMemory, IsKnownBeforeItIsAllocated) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::memory_test

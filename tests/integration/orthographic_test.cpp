@@ -16,7 +16,7 @@
 #include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::orthographic_test {
 namespace {
 
 using fg::test::expectError;
@@ -237,4 +237,4 @@ TEST_F(Orthographic, WhatDoesNotFitIsRefusedWithTheWayOut) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::orthographic_test

@@ -15,7 +15,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::output_format_test {
 namespace {
 
 constexpr glm::ivec2 kSize(53, 37);
@@ -173,4 +173,4 @@ TEST_F(OutputFormat, ThatCannotBeWrittenIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::output_format_test

@@ -10,7 +10,7 @@
 #include "tests/integration/hosted_run.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::owning_types_test {
 namespace {
 
 template <typename T>
@@ -127,4 +127,4 @@ TEST_F(OwningTypes, HoldPassesToo) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::owning_types_test

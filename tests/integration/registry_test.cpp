@@ -15,7 +15,7 @@
 #include "integration/denoise_graph.h"
 #include "tests/error_text.h"
 
-namespace walr {
+namespace walr::registry_test {
 namespace {
 
 using fg::test::errorText;
@@ -352,4 +352,4 @@ TEST(Registry, TheListingNamesEveryTypePortAndSetting) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::registry_test

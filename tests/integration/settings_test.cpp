@@ -10,7 +10,7 @@
 #include "tests/passes/texel_codec.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::settings_test {
 namespace {
 
 using reference::HostFrame;
@@ -216,4 +216,4 @@ TEST_F(Settings, UsesTheHostsPipelineCache) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::settings_test

@@ -14,7 +14,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::shared_objects_test {
 namespace {
 
 using fg::test::expectContains;
@@ -237,4 +237,4 @@ TEST_F(SharedObjects, AnotherDeviceADestroyedDenoiserAndSinglePassesAreRefused) 
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::shared_objects_test

@@ -11,7 +11,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::timestamps_test {
 namespace {
 
 void familiesWithoutTimestamps(VkPhysicalDevice device, std::uint32_t* count, VkQueueFamilyProperties* families) {
@@ -97,4 +97,4 @@ TEST_F(QueueWithoutTimestamps, IsAWarningInBothWays) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::timestamps_test

@@ -14,7 +14,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::views_test {
 namespace {
 
 using reference::HostFrame;
@@ -176,4 +176,4 @@ TEST_F(CApiViews, CountersOfPassesAreThoseOfFinishedFrames) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::views_test

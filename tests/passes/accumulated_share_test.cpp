@@ -20,7 +20,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::accumulated_share_test {
 namespace {
 
 using reference::Image;
@@ -565,4 +565,4 @@ TEST_F(AccumulatedShare, StaysFiniteWithBrokenAndExtremeLight) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::accumulated_share_test

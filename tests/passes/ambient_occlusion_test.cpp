@@ -7,7 +7,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::ambient_occlusion_test {
 namespace {
 
 using reference::Guide;
@@ -64,4 +64,4 @@ TEST_F(AmbientOcclusion, MirrorsAndSurfacesWithoutNormalsOcclude) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::ambient_occlusion_test

@@ -17,7 +17,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::antialiasing_shortening_test {
 namespace {
 
 using reference::Guide;
@@ -107,4 +107,4 @@ TEST_F(AntialiasingShortening, LeavesJitteredFramesAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::antialiasing_shortening_test

@@ -11,7 +11,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::baselines_counters_test {
 namespace {
 
 using reference::HostFrame;
@@ -193,4 +193,4 @@ TEST_F(BaselineCountersTest, AreTheSumsOfTheirViewsOnHardCases) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::baselines_counters_test

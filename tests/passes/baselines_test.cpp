@@ -9,7 +9,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::baselines_test {
 namespace {
 
 using reference::forEachPixel;
@@ -158,4 +158,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, BaselineTest,
                          caseName);
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::baselines_test

@@ -15,7 +15,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::block_regression_test {
 namespace {
 
 using reference::Guide;
@@ -302,4 +302,4 @@ TEST(BlockRegressionSettings, TooManyBlocksAreRejectedWithTheSetting) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::block_regression_test

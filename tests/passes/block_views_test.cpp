@@ -23,7 +23,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::block_views_test {
 namespace {
 
 using reference::HostFrame;
@@ -589,4 +589,4 @@ TEST_F(BlockViewsTest, ClampedFitsAreThoseBelowZero) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::block_views_test

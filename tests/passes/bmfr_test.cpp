@@ -18,7 +18,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::bmfr_test {
 namespace {
 
 using reference::Guide;
@@ -234,4 +234,4 @@ TEST_F(Bmfr, TheSecondAccumulationReadsTheHistoryThatTheFirstAccepted) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::bmfr_test

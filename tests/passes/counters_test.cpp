@@ -11,7 +11,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::counters_test {
 namespace {
 
 using reference::HostFrame;
@@ -226,4 +226,4 @@ TEST_F(CountersTest, RegularisedFitsAreThoseWhoseFeaturesDoNotVary) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::counters_test

@@ -19,7 +19,7 @@
 #include "tests/passes/walr_run.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::current_antilag_test {
 namespace {
 
 using reference::HostFrame;
@@ -209,4 +209,4 @@ TEST_F(CurrentAntilagTest, TheFirstFrameShowsTheNewLight) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::current_antilag_test

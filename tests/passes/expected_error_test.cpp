@@ -16,7 +16,7 @@
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
 
-namespace walr::test {
+namespace walr::test::expected_error_test {
 namespace {
 
 using reference::forEachPixel;
@@ -116,4 +116,4 @@ TEST_F(ExpectedError, AgreesWithTheFormula) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::expected_error_test

@@ -11,7 +11,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::fireflies_test {
 namespace {
 
 using reference::HostFrame;
@@ -125,4 +125,4 @@ TEST_F(Fireflies, AreCounted) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::fireflies_test

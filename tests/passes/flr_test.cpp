@@ -17,7 +17,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::flr_test {
 namespace {
 
 using reference::Guide;
@@ -149,4 +149,4 @@ TEST(FlrSettings, TooManyCellsAreRejectedWithTheSetting) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::flr_test

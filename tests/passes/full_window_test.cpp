@@ -11,7 +11,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::full_window_test {
 namespace {
 
 using reference::forEachPixel;
@@ -179,4 +179,4 @@ TEST_F(FullWindowTest, EvenWindowsAreRefused) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::full_window_test

@@ -8,7 +8,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::joint_bilateral_test {
 namespace {
 
 using reference::forEachPixel;
@@ -107,4 +107,4 @@ TEST_F(JointBilateralTest, WindowsWithoutASampleAreBlack) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::joint_bilateral_test

@@ -16,7 +16,7 @@
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
 
-namespace walr::test {
+namespace walr::test::light_direction_test {
 namespace {
 
 constexpr fg::Extent kExtent{32, 16};
@@ -70,4 +70,4 @@ TEST_F(LightDirection, IsEvaluatedAsStated) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::light_direction_test

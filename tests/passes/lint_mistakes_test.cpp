@@ -11,7 +11,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::lint_mistakes_test {
 namespace {
 
 using reference::forEachPixel;
@@ -485,4 +485,4 @@ TEST_F(LintFactors, AreTold) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::lint_mistakes_test

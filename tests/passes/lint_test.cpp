@@ -13,7 +13,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::lint_test {
 namespace {
 
 using reference::forEachPixel;
@@ -275,4 +275,4 @@ TEST_P(Lint, ReportsTheFaultAndNothingElse) {
 INSTANTIATE_TEST_SUITE_P(Inputs, Lint, testing::ValuesIn(cases()));
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::lint_test

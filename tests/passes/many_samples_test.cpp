@@ -13,7 +13,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::many_samples_test {
 namespace {
 
 using reference::HostFrame;
@@ -186,4 +186,4 @@ TEST_F(ManySamples, ErrorsFallForAsLongAsTheCameraStandsStill) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::many_samples_test

@@ -15,7 +15,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::object_ids_test {
 namespace {
 
 using reference::Guide;
@@ -135,4 +135,4 @@ TEST_F(ObjectIdsTest, AreKeptOnlyIfTheHostHasThemAndTheMethodReadsThem) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::object_ids_test

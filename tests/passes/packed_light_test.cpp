@@ -19,7 +19,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::packed_light_test {
 namespace {
 
 using reference::HostFrame;
@@ -489,4 +489,4 @@ TEST_F(PackedLight, AStillImageIsStableAndUnbiased) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::packed_light_test

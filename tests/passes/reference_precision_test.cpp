@@ -8,7 +8,7 @@
 #include "tests/passes/linear_signal.h"
 #include "tests/passes/reference/walr.h"
 
-namespace walr::test {
+namespace walr::test::reference_precision_test {
 namespace {
 
 using reference::Image;
@@ -104,4 +104,4 @@ TEST(Precision, StorageRoundingStaysBelowItsBudget) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::reference_precision_test

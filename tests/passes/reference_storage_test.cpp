@@ -9,7 +9,7 @@
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/storage.h"
 
-namespace walr::reference {
+namespace walr::reference::reference_storage_test {
 namespace {
 
 TEST(Storage, HalvesRoundToNearestEven) {
@@ -123,4 +123,4 @@ TEST(Hash, EveryWordOfTheKeyMatters) {
 }
 
 }  // namespace
-}  // namespace walr::reference
+}  // namespace walr::reference::reference_storage_test

@@ -15,7 +15,7 @@
 #include "tests/passes/reference/walr.h"
 #include "tests/passes/synthetic_scene.h"
 
-namespace walr::test {
+namespace walr::test::reference_theory_test {
 namespace {
 
 using reference::AtrousState;
@@ -331,4 +331,4 @@ TEST(Theory, CovariancesStayPositiveSemidefinite) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::reference_theory_test

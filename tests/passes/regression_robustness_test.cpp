@@ -7,7 +7,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::regression_robustness_test {
 namespace {
 
 using reference::HostFrame;
@@ -96,4 +96,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, RegressionRobustness,
                          testName);
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::regression_robustness_test

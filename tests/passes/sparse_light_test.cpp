@@ -18,7 +18,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::sparse_light_test {
 namespace {
 
 using reference::forEachPixel;
@@ -394,4 +394,4 @@ TEST_F(SparseLight, FollowsAChangeOfTheLight) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::sparse_light_test

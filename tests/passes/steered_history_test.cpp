@@ -18,7 +18,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::steered_history_test {
 namespace {
 
 using reference::Image;
@@ -128,4 +128,4 @@ TEST_F(SteeredHistoryTest, AgreesWithDoublePrecision) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::steered_history_test

@@ -12,7 +12,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::svgf_test {
 namespace {
 
 using fg::test::GraphRun;
@@ -364,4 +364,4 @@ TEST_F(SvgfTest, FeedbackBeyondTheLastIterationIsRefused) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::svgf_test

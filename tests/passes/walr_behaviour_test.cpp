@@ -12,7 +12,7 @@
 #include "tests/passes/walr_run.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_behaviour_test {
 namespace {
 
 using reference::HostFrame;
@@ -345,4 +345,4 @@ TEST_F(WalrBehaviourTest, BlocksAreFiniteAndNotNegativeOnHardCases) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_behaviour_test

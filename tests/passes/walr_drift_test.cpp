@@ -11,7 +11,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_drift_test {
 namespace {
 
 using reference::HostFrame;
@@ -80,4 +80,4 @@ TEST_F(WalrDriftTest, TheOutputDoesNotDriftAndMemoryDoesNotGrow) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_drift_test

@@ -12,7 +12,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_history_test {
 namespace {
 
 using reference::HostFrame;
@@ -416,4 +416,4 @@ TEST_F(WalrHistoryTest, AStepOfExposureDecaysAsTheMeanDoes) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_history_test

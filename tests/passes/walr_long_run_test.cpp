@@ -6,7 +6,7 @@
 #include "tests/passes/walr_run.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_long_run_test {
 namespace {
 
 using reference::HostFrame;
@@ -54,4 +54,4 @@ TEST_F(WalrLongRunTest, TheMeanDoesNotDriftAndMemoryDoesNotGrow) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_long_run_test

@@ -7,7 +7,7 @@
 #include "tests/passes/walr_run.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_precision_test {
 namespace {
 
 constexpr glm::ivec2 kSize(96, 64);
@@ -52,4 +52,4 @@ TEST_F(WalrPrecisionTest, EachStorageHoldsAtItsOwnEpsilonAndFailsBelowIt) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_precision_test

@@ -9,7 +9,7 @@
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_stages_test {
 namespace {
 
 using reference::HostFrame;
@@ -179,4 +179,4 @@ TEST_F(WalrStagesTest, WholePipelineStaysNearDoublePrecision) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_stages_test

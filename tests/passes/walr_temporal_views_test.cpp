@@ -12,7 +12,7 @@
 #include "tests/passes/walr_run.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_temporal_views_test {
 namespace {
 
 using reference::HostFrame;
@@ -240,4 +240,4 @@ TEST_F(WalrTemporalViewsTest, MasksShowExactlyWhatIsBroken) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_temporal_views_test

@@ -14,7 +14,7 @@
 #include "tests/passes/walr_run.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_theory_test {
 namespace {
 
 using reference::HostFrame;
@@ -207,4 +207,4 @@ TEST_F(WalrTheoryTest, CovariancesStayPositiveSemidefinite) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_theory_test

@@ -8,7 +8,7 @@
 #include "tests/passes/walr_run.h"
 #include "tests/vulkan/gpu_fixture.h"
 
-namespace walr::test {
+namespace walr::test::walr_views_test {
 namespace {
 
 using reference::HostFrame;
@@ -152,4 +152,4 @@ TEST_F(WalrViewsTest, DoNotChangeTheOutput) {
 }
 
 }  // namespace
-}  // namespace walr::test
+}  // namespace walr::test::walr_views_test

@@ -10,7 +10,7 @@
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
-namespace walr {
+namespace walr::averaged_frame_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -146,4 +146,4 @@ TEST(AveragedPictures, AreLitBeforeTheyAreAveraged) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::averaged_frame_test

@@ -8,7 +8,7 @@
 #include "samples/bench/hard_case_scenes.h"
 #include "tests/samples/bench_schema.h"
 
-namespace walr {
+namespace walr::bench_numerics_test {
 namespace {
 
 TEST(HardCases, NoiseHasTheTruthAsItsMean) {
@@ -104,4 +104,4 @@ TEST(MethodHardCases, NothingComesOutWorseThanItWentIn) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::bench_numerics_test

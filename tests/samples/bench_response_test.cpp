@@ -10,7 +10,7 @@
 #include "samples/bench/response_scene.h"
 #include "tests/samples/bench_schema.h"
 
-namespace walr {
+namespace walr::bench_response_test {
 namespace {
 
 constexpr fg::Extent kExtent{96, 54};
@@ -129,4 +129,4 @@ TEST(ResponseTest, OfMethodsWithAKnownAnswer) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::bench_response_test

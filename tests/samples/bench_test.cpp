@@ -21,7 +21,7 @@
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
-namespace walr {
+namespace walr::bench_test {
 namespace {
 
 using fg::test::expectError;
@@ -220,4 +220,4 @@ TEST(PictureFrames, AreTheLastAndTheHardestAfterHistoryHasBuiltUp) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::bench_test

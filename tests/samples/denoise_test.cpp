@@ -19,7 +19,7 @@
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
-namespace walr {
+namespace walr::denoise_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -371,4 +371,4 @@ TEST(Progress, DrawsABarOnATerminal) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::denoise_test

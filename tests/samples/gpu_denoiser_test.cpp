@@ -17,7 +17,7 @@
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
 
-namespace walr {
+namespace walr::gpu_denoiser_test {
 namespace {
 
 constexpr int kWidth = 40;
@@ -159,4 +159,4 @@ TEST(PipelineCacheFile, MayBeImpossible) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::gpu_denoiser_test

@@ -16,7 +16,7 @@
 #include "samples/image/half.h"
 #include "tests/samples/synthetic_sequence.h"
 
-namespace walr {
+namespace walr::light_denoisers_test {
 namespace {
 
 constexpr int kWidth = 72;
@@ -176,4 +176,4 @@ TEST(LightDenoisers, LightsWithOtherGuidesAreRefused) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::light_denoisers_test

@@ -11,7 +11,7 @@
 #include "samples/sequence/sequence.h"
 #include "tests/shared_data.h"
 
-namespace walr {
+namespace walr::lint_on_sequences_test {
 namespace {
 
 /// Findings of the linter in a sequence after a change to its frames.
@@ -71,4 +71,4 @@ TEST(SharedDataLintOnNoise, FindsAlbedoAndMotion) {
 }
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::lint_on_sequences_test

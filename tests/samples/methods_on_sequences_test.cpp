@@ -11,7 +11,7 @@
 #include "samples/sequence/sequence.h"
 #include "tests/shared_data.h"
 
-namespace walr {
+namespace walr::methods_on_sequences_test {
 namespace {
 
 struct Frames {
@@ -70,4 +70,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param).sequence; });
 
 }  // namespace
-}  // namespace walr
+}  // namespace walr::methods_on_sequences_test

@@ -11,7 +11,7 @@ namespace {
 /// Solution of the normal equations.
 struct Fit {
   std::vector<double> beta;  ///< Coefficients of the constant and the two features.
-  Matrix factor;             ///< Cholesky factor of the normal equations.
+  MatrixRows factor;         ///< Cholesky factor of the normal equations.
   double lambda = 0.0;       ///< Ridge.
 };
 
@@ -48,9 +48,9 @@ double fitError(const Moments& m, glm::dvec2 offset, const MomentValues& e, cons
 
 }  // namespace
 
-Matrix cholesky(const Matrix& a, const std::vector<double>& pivotFloors) {
+MatrixRows cholesky(const MatrixRows& a, const std::vector<double>& pivotFloors) {
   const std::size_t m = a.size();
-  Matrix c(m, std::vector<double>(m, 0.0));
+  MatrixRows c(m, std::vector<double>(m, 0.0));
   for (std::size_t i = 0; i < m; ++i) {
     double pivot = a[i][i];
     for (std::size_t j = 0; j < i; ++j) pivot -= c[i][j] * c[i][j];
@@ -64,7 +64,7 @@ Matrix cholesky(const Matrix& a, const std::vector<double>& pivotFloors) {
   return c;
 }
 
-std::vector<double> solve(const Matrix& c, std::vector<double> y) {
+std::vector<double> solve(const MatrixRows& c, std::vector<double> y) {
   const std::size_t m = c.size();
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t j = 0; j < i; ++j) y[i] -= c[i][j] * y[j];

@@ -8,13 +8,13 @@
 namespace walr::reference {
 
 /// Square matrix of a regression with m features, row by row.
-using Matrix = std::vector<std::vector<double>>;
+using MatrixRows = std::vector<std::vector<double>>;
 
 /// Lower triangular C with C C^t = `a` for a symmetric matrix, each pivot no smaller than its floor (Meunier & Harada
 /// 2022, algorithm 1).
-Matrix cholesky(const Matrix& a, const std::vector<double>& pivotFloors);
+MatrixRows cholesky(const MatrixRows& a, const std::vector<double>& pivotFloors);
 /// Solve C C^t x = y (Meunier & Harada 2022, algorithm 2).
-std::vector<double> solve(const Matrix& c, std::vector<double> y);
+std::vector<double> solve(const MatrixRows& c, std::vector<double> y);
 
 /// A reconstructed colour, with the error that single-precision arithmetic may have made in it.
 struct Reconstruction {
