@@ -242,10 +242,6 @@ def start(host, screen, *options):
         write_png(host.screenshot, screen.rows())
 
 
-def denoised(host, screen):
-    start(host, screen, "--method", "accumulate")
-
-
 def split(host, screen):
     start(host, screen, "--method", "accumulate", "--view", "split")
 
@@ -489,7 +485,7 @@ def main():
     scene = "turntable.gltf" if scenario in ("play", "resize", "resize_on_device") else "box.gltf"
     with tempfile.TemporaryDirectory() as folder, virtual_screen(folder) as screen:
         host = Host(program, pathlib.Path(scenes) / scene, pathlib.Path(folder), pathlib.Path(screenshot))
-        scenarios = {"denoised": denoised, "split": split, "texture": texture, "methods": methods, "views": views,
+        scenarios = {"split": split, "texture": texture, "methods": methods, "views": views,
                      "play": play, "refused": refused, "lint": lint, "drop": drop, "resize": resize,
                      "resize_on_device": resize_on_device}
         scenarios[scenario](host, screen)
