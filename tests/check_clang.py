@@ -10,6 +10,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -25,6 +26,7 @@ vector
 CLI/CLI.hpp glm/glm.hpp glm/gtc/matrix_transform.hpp glm/gtc/type_ptr.hpp gtest/gtest.h nlohmann/json.hpp
 vulkan/vulkan_core.h
 """.split()
+LIBRARY = ("framegraph", "passes", "integration")
 GCC_ONLY = ("--param=", "-Wno-subobject-linkage")
 # A shared header must be compiled with the same flags as the sources. These differ between targets, and no warning depends on
 # them.
@@ -54,11 +56,20 @@ def compile_shared_headers(entry, folder):
     return ["-include-pch", compiled]
 
 
+def apart(entry):
+    """The sources that an entry joins, as the preset `default` compiles them."""
+    sources = re.findall('^#include "(.*)"', pathlib.Path(entry["file"]).read_text(), re.MULTILINE)
+    return [entry | {"command": entry["command"].replace(entry["file"], source), "file": source} for source in sources]
+
+
 def without_repetitions(entries, build):
     """Generated sources are alike, so one of each folder is enough. Joined sources, in folders of their own, are not alike."""
     kept, folders = [], set()
     for entry in entries:
         folder = pathlib.Path(entry["file"]).parent
+        if folder.name == "Unity" and folder.relative_to(build).parts[0] in LIBRARY:
+            kept += apart(entry)
+            continue
         if folder.is_relative_to(build) and folder.name != "Unity" and folder in folders:
             continue
         folders.add(folder)
@@ -72,7 +83,7 @@ def main():
     strict = version.split(".")[0] in STRICT_MAJOR_VERSIONS
 
     entries = json.loads((build / "compile_commands.json").read_text())
-    # Joined sources are checked together: the preset `default` and the library for Windows compile each by itself.
+    # Joined sources are checked together, but for those of the library: what one of them does not include must show somewhere.
     sources = without_repetitions([entry for entry in entries if entry["file"].endswith((".cpp", "_cxx.cxx"))], build)
     if not sources:
         sys.exit("compile_commands.json lists no source")
