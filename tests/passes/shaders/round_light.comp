@@ -6,9 +6,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kKey = 0;  // Key of the texture; 0 for the pass-through.
-layout(constant_id = 1) const uint kFrame = 0;
-layout(constant_id = 2) const uint kLongest = 1;  // Longest history length of the resolved texture.
-layout(constant_id = 3) const bool kNumbers = false;  // Writes the random numbers.
+layout(constant_id = 1) const bool kNumbers = false;  // Writes the random numbers.
+layout(push_constant) uniform PushConstants {
+  uint frame;
+  uint longest;  // Longest history length of the resolved texture.
+};
 layout(set = 0, binding = 0) uniform texture2D source;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
 
@@ -19,7 +21,7 @@ vec4 rounded(vec4 light, vec4 random) {
     case kAccumulatedSeed: return unpackAccumulated(packAccumulated(light, random));
     case kFilteredKey: return vec4(1.0, 1.0, 1.0, light.a) * unpackFiltered(packFiltered(light.rgb, random.r));
     case kResolvedSeed: {
-      const PackedLength most = PackedLength(float(kLongest), kLongest > 64u);
+      const PackedLength most = PackedLength(float(longest), longest > 64u);
       return unpackResolved(packResolved(light, most, random), most);
     }
   }
@@ -29,6 +31,6 @@ vec4 rounded(vec4 light, vec4 random) {
 void main() {
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(source, 0)))) return;
-  const vec4 random = kKey == kFilteredKey ? vec4(ditherNumber(p, kFrame)) : randomNumbers(p, kFrame, kKey);
+  const vec4 random = kKey == kFilteredKey ? vec4(ditherNumber(p, frame)) : randomNumbers(p, frame, kKey);
   imageStore(target, p, kNumbers ? random : rounded(texelFetch(source, p, 0), random));
 }
