@@ -19,7 +19,7 @@ struct HardCase {
 };
 
 /// Size of all hard cases.
-inline constexpr fg::Extent kHardCaseExtent{64, 64};
+inline constexpr fg::Extent kHardCaseExtent{66, 66};
 
 /// All hard cases: small but nonzero variance of the features, collinear features, isolated pixels, fireflies,
 /// non-finite values, extremes of radiance and depth, a grazing plane, normals on the octahedral fold and off the unit

@@ -25,7 +25,7 @@ constexpr glm::ivec2 kSize(48, 36);
 constexpr const char* kMethod = "svgf";  // Reads every input, and has few pipelines to create for each host.
 constexpr std::uint32_t kFrames = 4;
 constexpr glm::ivec2 kOffset(5, 3);
-constexpr glm::ivec2 kMargin(16, 9);
+constexpr glm::ivec2 kMargin(18, 9);
 
 /// The frames that a host renders.
 struct Take {

@@ -19,7 +19,7 @@ using reference::forEachPixel;
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kImage(64, 48);
+constexpr glm::ivec2 kImage(66, 50);
 
 /// The rectangle that is denoised.
 struct Rectangle {
@@ -32,7 +32,7 @@ constexpr Rectangle kUsual{{48, 36}, {5, 3}};
 /// Dynamic resolution: a few percent larger or smaller, then the whole images, and back. Rounding changes the aspect
 /// ratio.
 Rectangle changing(std::uint32_t frame) {
-  static const std::vector<Rectangle> kSteps{kUsual, {{51, 38}, {0, 0}}, {{46, 35}, {9, 7}}, {{64, 48}, {0, 0}}};
+  static const std::vector<Rectangle> kSteps{kUsual, {{51, 38}, {0, 0}}, {{46, 35}, {9, 7}}, {{66, 50}, {0, 0}}};
   return kSteps[frame / 2 % kSteps.size()];
 }
 

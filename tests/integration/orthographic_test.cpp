@@ -24,7 +24,7 @@ using reference::forEachPixel;
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(96, 64);
+constexpr glm::ivec2 kSize(98, 66);
 constexpr double kHeight = 5.0;  ///< As much as a perspective camera shows at the depth of the scenes.
 
 HostedRun::Options orthographic() {

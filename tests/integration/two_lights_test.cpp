@@ -12,7 +12,7 @@
 namespace plugin_host {
 namespace {
 
-constexpr Size kSize{61, 43};
+constexpr Size kSize{53, 37};
 constexpr std::uint32_t kFrames = 5;
 constexpr std::uint32_t kReset = 3;  ///< The frame that drops the history.
 constexpr std::array kOutputs{"denoised", "history_length", "light_direction", "expected_error"};

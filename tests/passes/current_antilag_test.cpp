@@ -192,7 +192,7 @@ Shown shownAround(WalrRun& run, glm::ivec2 size, const LightPattern& pattern, do
 // Light without noise is beyond doubt other light, so that no history is left in the mean. Anti-aliasing clips its own
 // history to a box of at least a step of packed light, 1/128, about the new light.
 TEST_F(CurrentAntilagTest, TheFirstFrameShowsTheNewLight) {
-  constexpr glm::ivec2 kLarge(96, 64);
+  constexpr glm::ivec2 kLarge(98, 66);
   for (const WalrSettings& settings : {WalrSettings{}, walrWithoutShare()}) {
     for (const LightPattern& pattern : {LightPattern{}, LightPattern{2, 2}}) {
       for (const double change : {0.25, 4.0}) {

@@ -18,8 +18,8 @@ namespace {
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(96, 64);
-constexpr glm::ivec2 kSmall(40, 28);
+constexpr glm::ivec2 kSize(98, 66);
+constexpr glm::ivec2 kSmall(42, 34);
 const glm::dvec3 kConstant(0.75, 0.5, 1.25);
 
 /// A value is stored as a half six times (accumulation, three iterations, regression, anti-aliasing; or with blocks and

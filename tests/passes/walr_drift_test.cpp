@@ -16,7 +16,7 @@ namespace {
 
 using reference::HostFrame;
 
-constexpr glm::ivec2 kSize(24, 16);
+constexpr glm::ivec2 kSize(22, 18);
 constexpr std::uint32_t kCycle = 61;  ///< Number of different noisy frames, shown in turn.
 constexpr std::uint32_t kCycles = 166;
 constexpr std::uint32_t kUnsettled = 2;  ///< Cycles until histories are full.

@@ -17,7 +17,7 @@ namespace {
 
 using reference::HostFrame;
 
-constexpr glm::ivec2 kSize(64, 48);
+constexpr glm::ivec2 kSize(66, 50);
 const glm::dvec3 kConstant(0.75, 0.5, 1.25);
 
 glm::dvec3 constantLight(glm::dvec3 /*point*/, glm::dvec3 /*normal*/) {

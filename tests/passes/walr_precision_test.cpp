@@ -10,7 +10,7 @@
 namespace walr::test::walr_precision_test {
 namespace {
 
-constexpr glm::ivec2 kSize(96, 64);
+constexpr glm::ivec2 kSize(98, 66);
 
 class WalrPrecisionTest : public fg::test::GpuTest {
  protected:

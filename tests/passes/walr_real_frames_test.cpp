@@ -14,7 +14,7 @@ namespace {
 
 using reference::HostFrame;
 
-constexpr glm::ivec2 kCrop(96, 64);
+constexpr glm::ivec2 kCrop(98, 66);
 
 glm::dvec3 triple(const Image& image, glm::ivec2 p) {
   glm::dvec3 value(0.0);

@@ -28,7 +28,7 @@ class BenchProgramTest : public testing::Test {
  protected:
   BenchProgramTest() {
     fs::create_directory(input);
-    test::SyntheticSequence(input, 40, 32).write(0, 5);
+    test::SyntheticSequence(input, 40, 36).write(0, 5);
   }
 
   /// Run `walr bench` under the validation layer: with one repetition unless the arguments set another number, and
@@ -149,7 +149,7 @@ TEST_F(BenchProgramTest, KeepsThePicturesOfAllFramesWithReferencesIfAsked) {
   const auto ages = [&](int frame) {
     const std::string bytes =
         test::readText(first / "pictures" / "wall" / ("_age_000" + std::to_string(frame) + ".npy"));
-    std::vector<std::uint16_t> halves(std::size_t{40} * 32);
+    std::vector<std::uint16_t> halves(std::size_t{40} * 36);
     std::memcpy(halves.data(), bytes.data() + bytes.size() - 2 * halves.size(), 2 * halves.size());
     return halves;
   };
@@ -157,7 +157,7 @@ TEST_F(BenchProgramTest, KeepsThePicturesOfAllFramesWithReferencesIfAsked) {
   EXPECT_TRUE(std::ranges::all_of(start, [](std::uint16_t half) { return half == 0; }));
   constexpr std::uint16_t kThree = 0x4200;  // 3 as a half float.
   const std::vector<std::uint16_t> fourth = ages(3);
-  EXPECT_GT(std::ranges::count(fourth, kThree), 40 * 32 / 2);
+  EXPECT_GT(std::ranges::count(fourth, kThree), 40 * 36 / 2);
   EXPECT_TRUE(std::ranges::all_of(fourth, [](std::uint16_t half) { return half <= kThree; }));
 }
 
@@ -173,7 +173,7 @@ TEST_F(BenchProgramTest, RunsOnlyWhatIsMissingOrHasChanged) {
   EXPECT_NE(more.err.find("2 of 3 variants"), std::string::npos) << more.err;
   EXPECT_EQ(run(report(first), "accumulate"), run(before, "accumulate"));
 
-  test::SyntheticSequence(input, 40, 32).writeReference(3, [](test::Channels& channels) {
+  test::SyntheticSequence(input, 40, 36).writeReference(3, [](test::Channels& channels) {
     channels.at("DiffInd.R").at(20, 20, 0) += 0.5F;
   });
   const ProcessResult changed = bench(first, {"--methods", "accumulate"});

@@ -137,7 +137,7 @@ TEST_F(GpuReportProgramTest, LeavesOutWhatIsTooLargeOrTooLate) {
 TEST_F(GpuReportProgramTest, TakesASequence) {
   const fs::path input = directory.path() / "wall";
   fs::create_directory(input);
-  test::SyntheticSequence(input, 40, 32).write(0, 3);
+  test::SyntheticSequence(input, 40, 36).write(0, 3);
   expectSuccess(report(first, {"--methods", "accumulate", "--variant", "once=accumulate,accumulation.max-history=1",
                                "--sequence", input.string(), "--sizes", "64x36"}));
   const json data = read(first);

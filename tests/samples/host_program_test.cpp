@@ -22,7 +22,7 @@ using test::kUsage;
 class HostProgramTest : public testing::Test {
  protected:
   [[nodiscard]] test::ProcessResult host(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {WALR_HOST_PROGRAM, "--headless", "--validate", "--size", "32x18"};
+    std::vector<std::string> arguments = {WALR_HOST_PROGRAM, "--headless", "--validate", "--size", "36x20"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return test::runProcess(arguments);
   }

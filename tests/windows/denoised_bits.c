@@ -16,7 +16,7 @@
 #include <dlfcn.h>
 #endif
 
-enum { kWidth = 96, kHeight = 64, kFrames = 8, kImages = 6, kOutput = 5 };
+enum { kWidth = 53, kHeight = 37, kFrames = 8, kImages = 6, kOutput = 5 };
 static const char* const kNames[kImages] = {"lighting", "depth", "normal", "motion", "albedo", "denoised"};
 static const float kStep = 0.0625F; /* The camera's movement to the right per frame, in scene units. */
 static const float kFocal = 1.5F;
