@@ -15,7 +15,7 @@ walr_packages=(
   libdraco-dev libmeshoptimizer-dev
   # Tests and benchmarks
   abigail-tools doxygen file graphviz libbenchmark-dev libgtest-dev libxml2-utils libxtst6 python3 python3-jsonschema
-  python3-matplotlib python3-skimage xvfb
+  python3-matplotlib python3-pyflakes python3-skimage xvfb
 )
 
 walr_setup() {

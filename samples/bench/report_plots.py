@@ -1,12 +1,13 @@
 """The plots of a benchmark's report, for report.py. Needs matplotlib."""
 import io
+import math
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-from report_data import COLOURS, ERRORS, pareto  # noqa: E402
+from report_data import COLOURS, ERRORS, SPARE_COLOURS, pareto  # noqa: E402
 
 MARKERS = "osD^vP*X"
 plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,

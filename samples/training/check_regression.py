@@ -17,7 +17,6 @@ import torch
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "images"))
-import exr
 from dataset import frame_of
 from make_data import planes, run, seen_frames
 from network import SIGMA, regression

@@ -4,6 +4,7 @@
 Writes metric_fixture.json, or with --check compares it with freshly computed values. Needs python3-skimage.
 The test images come from a formula that metric_pictures.h repeats.
 """
+import importlib.util
 import json
 import pathlib
 import sys
@@ -74,9 +75,7 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        import skimage  # noqa: F401
-    except ImportError:
+    if importlib.util.find_spec("skimage") is None:
         print("scikit-image (python3-skimage) is not installed: the stored values are not checked")
         sys.exit(77)
     main()
