@@ -126,8 +126,9 @@ void registerGpuReport(CLI::App& program) {
       ->type_name("LIST|usual|all")
       ->capture_default_str();
   command
-      ->add_option("--variant", arguments->variants,
-                   "Also a method with these settings under this name; repeatable. It has no estimates")
+      ->add_option(
+          "--variant", arguments->variants,
+          "Also a method with these settings under this name; repeatable. With changed settings it has no estimates")
       ->allow_extra_args(false)
       ->type_name("NAME=METHOD[:PRESET][,SETTING=VALUE]...");
   command

@@ -231,7 +231,8 @@ TEST_F(CApiMemory, WithoutACallbackIsAnError) {
 TEST_F(CApiMemory, IsKnownBeforeItIsAllocated) {
   for (const std::string& method : denoiserNames()) {
     for (const bool lint : {false, true}) {
-      if (!lint && method != "walr") continue;  // The linter and counters come on top of what any method needs.
+      // The linter and counters add passes, which change lifetimes: of a long plan and of a short one.
+      if (!lint && method != "walr" && method != "accumulate") continue;
       SCOPED_TRACE(method);
       WalrDenoiserInfo described = info(method.c_str());
       described.lint = lint ? VK_TRUE : VK_FALSE;

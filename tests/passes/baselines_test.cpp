@@ -94,7 +94,7 @@ TEST_P(DenoiserTest, KeepsConstantLightAndIgnoresPixelsWithoutASample) {
 
 TEST_P(DenoiserTest, IsFiniteForAnyInputAndSize) {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(3, 5), glm::ivec2(17, 13), kSize}) {
-    // Of a single pixel, the filters see the same with history and without.
+    // Without stages that remember, a single pixel is what it is in the first frame.
     if (GetParam().spatialOnly && size == glm::ivec2(1, 1)) continue;
     const std::unique_ptr<Denoiser> denoiser = makeCase();
     DenoiserRun run(device(), *denoiser, size);

@@ -91,7 +91,7 @@ Scene sphere() {
 
 Scene thinBars() {
   return [](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
-    // At this distance an image of 96 x 64 has 12.8 pixels per unit.
+    // At this distance an image of 98 x 66 has 13.2 pixels per unit.
     const auto bar = hitPlane(origin, direction, {0.0, 0.0, -5.0}, kBackNormal);
     if (bar) {
       const glm::dvec3 p = origin + *bar * direction;

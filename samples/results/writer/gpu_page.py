@@ -122,12 +122,18 @@ def probes_table(kept):
 
 def agreement_text(kept):
     """Which results differ from a processor's, and how much the others do at most."""
-    found = [(difference / rmse, differs, f"`{name}` on the sequence '{sequence}'") for name, method in kept["methods"].items()
+    found = [(f"`{name}` on the sequence '{sequence}'", rmse, difference, differs) for name, method in kept["methods"].items()
              for sequence, rmse, _, difference, differs in method["agreement"]]
-    differing = [which for _, differs, which in found if differs] or ["none"]
-    share, _, most = max(f for f in found if not f[1])
-    return filled(f"Of {len(found)} results, these differ by more than a tenth of their own error in the root mean square, or are not finite: "
-                  f"{listed(differing)}. Of the others, that of {most} differs most, by {100 * share:.1f} % of its error.")
+    differing = [which for which, _, _, differs in found if differs]
+    alike = [(difference / rmse, which) for which, rmse, difference, differs in found if not differs]
+    text = (f"{len(alike)} of {len(found)} results differ from a processor's by at most a tenth of their own error in the root mean "
+            "square, and are finite")
+    if differing:
+        text += f"; not so: {listed(differing)}"
+    if alike:
+        share, most = max(alike)
+        text += f". Of these, that of {most} differs most, by {100 * share:.1f} % of its error"
+    return filled(text + ".")
 
 
 def page(kept):
