@@ -66,12 +66,18 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
   }
   inputs.frame = graph.upload(std::string(kFrameName), sizeof(FrameConstants));
   inputs.conventions = conventions;
+  // A texel with a distance of 0 is no sample.
+  inputs.conventions.light.masked |= conventions.specular;
   inputs.scene.resizing = host.rectangle;
   return inputs;
 }
 
 void checkOrthographic(const InputConventions& conventions, const HostConventions& host, bool lint) {
   if (!host.orthographic) return;
+  if (conventions.specular) {
+    throw std::invalid_argument(
+        "specular light needs a perspective camera: its mirror images are computed from the eye");
+  }
   if (conventions.motionDepth == InputConventions::MotionDepth::StaticScene) {
     throw std::invalid_argument(
         "an orthographic camera needs the third channel of motion: motion depth of a static scene is computed for "
@@ -184,6 +190,9 @@ DenoiseGraph declareDenoiseGraph(std::span<Denoiser* const> methods, fg::Extent 
   if (methods.empty() || methods.size() > kMostLights) {
     throw std::invalid_argument("a graph of " + std::to_string(methods.size()) + " lights: it takes 1 to " +
                                 std::to_string(kMostLights));
+  }
+  if (conventions.specular && methods.size() > 1) {
+    throw std::invalid_argument("specular light shares no guides with another light: declare a graph for it alone");
   }
   checkOrthographic(conventions, host, wanted.lint);
   const Declaring all{states, host, wanted};

@@ -113,6 +113,8 @@ DenoiserInputs addConvertInputs(StageGraph graph, DenoiserInputs inputs, const H
   }
   inputs = addConvertLight(graph, inputs, conventions, host);
   if (all) inputs.albedo = convertColour(graph, "albedo", inputs.albedo, false, host);
+  if (all && inputs.roughness.valid())
+    inputs.roughness = convertColour(graph, "roughness", inputs.roughness, false, host);
   if (all && inputs.objectId.valid()) {
     inputs.objectId = convert(graph, "object numbers", shaders::convertInputNumbers, inputs.objectId, host)
                           .store("target", converted(graph, "object numbers", VK_FORMAT_R32_UINT, inputs.objectId));

@@ -17,7 +17,7 @@ const fg::Shader& shaderFor(const GuideNeeds& needs) {
 Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const PrepareGuidesSettings& settings,
                         const GuideNeeds& needs) {
   if (graph.shared() != nullptr && graph.shared()->prepared())
-    return graph.shared()->guidesFor({settings, needs, inputs.scene});
+    return graph.shared()->guidesFor({settings, needs, inputs.scene, inputs.conventions.specular});
   offerGuideViews(graph, inputs, settings);
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
   fg::PassBuilder pass = graph->compute("prepare guides", shaderFor(needs));
@@ -27,7 +27,8 @@ Guides addPrepareGuides(StageGraph graph, const DenoiserInputs& inputs, const Pr
       .texels(extent)
       .dispatch(extent);
   const Guides guides = writeGuides(graph, pass, extent, needs);
-  if (graph.shared() != nullptr) graph.shared()->keep({settings, needs, inputs.scene}, guides);
+  if (graph.shared() != nullptr)
+    graph.shared()->keep({settings, needs, inputs.scene, inputs.conventions.specular}, guides);
   return guides;
 }
 

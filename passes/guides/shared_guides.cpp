@@ -9,7 +9,7 @@ Guides SharedGuides::guidesFor(const Made& wanted) const {
   throw std::invalid_argument(
       "the lights cannot share guides, because their settings ask for different ones: give both the same guides.*, "
       "occlusion.*, scene.*, spatial-only, *.rejection, antialiasing.enabled, regression.plane-normal and "
-      "regression.occlusion-guide, or make a denoiser for each light");
+      "regression.occlusion-guide, or make a denoiser for each light, as for specular and diffuse light");
 }
 
 }  // namespace walr

@@ -30,6 +30,7 @@ class SharedGuides {
     PrepareGuidesSettings settings;
     GuideNeeds needs;
     SceneDescription scene;
+    bool specular = false;
 
     friend bool operator==(const Made&, const Made&) = default;
   };

@@ -19,7 +19,7 @@ const std::vector<ViewInfo>& reflectionViews() {
        {{"mirror-images", "Z"}}},
       {"reflection-history",
        "Longest history of specular light, frames; by how much its ray of the previous frame misses what is reflected, "
-       "over the lobe's half angle; 1 where that shortens history",
+       "over the lobe's half angle or half a pixel; 1 where that, or the host's confidence, shortens history",
        {{"shortened-reflections", "Z"}}},
   };
   return kViews;
@@ -32,6 +32,10 @@ ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inp
                                      const ReflectionMotionSettings& reflection) {
   if (settings.rejection != HistoryRejection::Plane) {
     throw std::invalid_argument("specular light tests its history by plane: leave accumulation.rejection at plane");
+  }
+  if (inputs.conventions.motionDepth == InputConventions::MotionDepth::Found && inputs.scene.objectMotion) {
+    throw std::invalid_argument(
+        "specular light needs the third channel of motion where objects move: motion depth cannot be found");
   }
   const fg::Extent extent = graph.textureDesc(guides.depth).extent;
   const fg::History reflectors = graph.history("reflectors", {VK_FORMAT_R32G32_UINT, extent});

@@ -137,12 +137,13 @@ void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
   }
 }
 
-/// @throws UsageError naming an option that is about diffuse light
+/// @throws UsageError naming an option that specular light does not have
 void refuseWithSpecularLight(const DenoiseOptions& options) {
   const auto refuse = [](const std::string& option) {
-    throw UsageError("--light specular: " + option + " is about diffuse light; leave out one of them");
+    throw UsageError("--light specular cannot have " + option + " yet: leave out one of them");
   };
   if (options.output.composite) refuse("--composite");
+  if (options.directLight == "reference") refuse("--direct-light reference");
   if (options.average > 1) refuse("--average");
   if (options.lightDirection) refuse("--light-direction");
   if (!options.sequence.keptLight.everyPixel()) refuse("--light-rate");
@@ -150,13 +151,13 @@ void refuseWithSpecularLight(const DenoiseOptions& options) {
 
 /// The value of --light, or its default.
 std::string chosenLight(const DenoiseOptions& options) {
+  if (options.light == "specular") refuseWithSpecularLight(options);
   const bool directIsReference = options.directLight == "reference";
   if (options.light.empty()) return options.output.composite && !directIsReference ? "both" : "indirect";
   if (directIsReference && options.light != "indirect") {
     throw UsageError("--direct-light reference takes the direct light of lit images from the reference, and --light " +
                      options.light + " denoises that of the frames: leave out one of them");
   }
-  if (options.light == "specular") refuseWithSpecularLight(options);
   return options.light;
 }
 

@@ -368,8 +368,7 @@ RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const Chann
 
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
   const auto holds = [&](Role role) {
-    return std::ranges::any_of(layout.layout->specular,
-                               [&](const Plane& plane) { return plane.role == role && hasPlane(file, layout, plane); });
+    return std::ranges::find(layout.specular, role, &Plane::role) != layout.specular.end();
   };
   if (wanted.onlySpecular() && !(holds(Role::Specular) && holds(Role::SpecularDistance) && holds(Role::Roughness))) {
     throw InputError(
@@ -399,9 +398,15 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
 }
 
 void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
+  std::vector<Plane> planes;
+  if (wanted.onlySpecular()) {
+    std::ranges::copy_if(layout.specular, std::back_inserter(planes),
+                         [](const Plane& plane) { return plane.role == Role::Specular; });
+    requirePlanes(file, layout, planes, "Render references with specular light, too, or remove them.");
+    return;
+  }
   const Plane& indirect = planeOf(*layout.layout, Role::Indirect);
   const Plane& direct = planeOf(*layout.layout, Role::Direct);
-  std::vector<Plane> planes;
   const bool mayHoldDirect = wanted.direct && hasPlane(file, layout, direct);
   if (mayHoldDirect) planes.push_back(direct);
   if (!mayHoldDirect || hasPlane(file, layout, indirect)) planes.push_back(indirect);

@@ -3,7 +3,7 @@
 // by the ray that the previous frame's surface reflected there: by how much it misses the point that is reflected now.
 // The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
 // history (confidence.glsl).
-// Needs the geometric normal beside depth. Tests history by plane.
+// Needs the geometric normal in a texture of its own. Tests history by plane.
 // VIEW: does the same work and writes its intermediate values.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -100,7 +100,8 @@ float inverseDistanceAround(ivec2 p, Reflector own) {
     const ivec2 q = p + ivec2(i % 3, i / 3) - 1;
     if (!neighbourAt(q, own, found)) continue;
     const float distance = texelFetch(lighting, q, 0).a;
-    if (distance > 0.0) nearest = max(nearest, 1.0 / clamp(distance, least, kLargestHalf));
+    // The largest half stands for all that is farther.
+    if (distance > 0.0 && distance < kLargestHalf) nearest = max(nearest, 1.0 / max(distance, least));
   }
   return nearest;
 }
@@ -246,7 +247,7 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   if (own.roughness < constants.surfaceFrom) {
     const float inverseDistance = inverseDistanceAround(p, own);
     const vec3 mirrored = reflect(normalize(own.position), own.normal);
-    const vec3 object = own.position + mirrored / max(inverseDistance, 1.0 / kLargestHalf);
+    const vec3 object = own.position + mirrored / max(inverseDistance, -1.0 / (kFarthestImage * own.position.z));
     const vec3 objectBefore = previousPosition(frame.previousViewFromView, object);
     Candidate best = candidateFrom(surfaceAt, surfaceBefore(tapsAt(surfaceAt), surface, r.valid), objectBefore);
 
@@ -283,7 +284,7 @@ vec3 viewOf(ivec2 p, Reflector own) {
   const ReflectionMotion m = reflectionMotionAt(p, own);
   switch (view) {
     case 0u: return vec3(m.motion, m.image);
-    case 1u: return vec3(m.history, min(m.miss, kLargestHalf), m.history < constants.maxHistory);
+    case 1u: return vec3(m.history, min(m.miss, kLargestHalf), any(m.taps) && m.history < constants.maxHistory);
   }
   return vec3(0.0);
 }

@@ -16,6 +16,7 @@
 
 #include "passes/methods/denoiser.h"
 #include "passes/temporal/reflection_motion.h"
+#include "tests/error_text.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/denoiser_run.h"
 #include "tests/passes/host_textures.h"
@@ -404,9 +405,13 @@ TEST(SpecularLight, IsRefusedByNameWhereAMethodCannotTakeIt) {
     }
   }
   const auto method = makeDenoiser("accumulate");
-  EXPECT_THROW((void)method->views({.specular = true, .light = {.columns = 2}}), std::invalid_argument);
+  const auto expectRefused = [&](const InputConventions& conventions, std::string_view why) {
+    fg::test::expectError<std::invalid_argument>([&] { (void)method->views(conventions); }, {why});
+  };
+  expectRefused({.specular = true, .light = {.columns = 2}}, "distances, not counts");
+  expectRefused({.motionDepth = InputConventions::MotionDepth::Found, .specular = true}, "third channel of motion");
   method->set("accumulation.rejection", "depth");
-  EXPECT_THROW((void)method->views({.specular = true}), std::invalid_argument);
+  expectRefused({.specular = true}, "accumulation.rejection");
 }
 
 }  // namespace

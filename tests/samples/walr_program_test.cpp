@@ -112,7 +112,9 @@ TEST_F(ProgramTest, DenoisesSpecularLight) {
 
   expectFailure(denoise({"--light", "specular"}), kUsage, {"'walr'", "diffuse light only", "accumulate"});
   expectFailure(denoise({"--light", "specular", "--method", "accumulate", "--composite"}), kUsage, {"--composite"});
-  expectSuccess(walr({"denoise", "--list-views", "--light", "specular", "--method", "accumulate"}));
+  const ProcessResult views = walr({"denoise", "--list-views", "--light", "specular", "--method", "accumulate"});
+  expectSuccess(views);
+  EXPECT_NE(views.out.find("reflection-motion"), std::string::npos) << views.out;
 }
 
 TEST_F(ProgramTest, NamesTheSpecularLightThatFramesLack) {
@@ -500,9 +502,9 @@ TEST_F(ProgramTest, SaysWhereACutIs) {
   EXPECT_NE(result.out.find("history is reset at frame 2"), std::string::npos) << result.out;
 }
 
-// Each method at one of the sizes: tests of the passes cross methods and sizes.
+// Each method at one of the sizes. Tests of the passes cross methods and sizes, but no pictures of one row or column.
 TEST_F(ProgramTest, TinyAndOddSizesComeOutFinite) {
-  constexpr std::array kSizes{std::array{1, 1}, std::array{7, 5}, std::array{1, 5}, std::array{7, 1}};
+  constexpr std::array kSizes{std::array{1, 5}, std::array{7, 1}};
   std::size_t next = 0;
   for (const std::string& method : denoiserNames()) {
     SCOPED_TRACE(method);

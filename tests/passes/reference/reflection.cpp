@@ -17,6 +17,8 @@
 namespace walr::reference {
 namespace {
 
+/// What is farther, in units of depth, counts as this far.
+constexpr double kFarthest = 3000.0;
 /// Single precision may decide where two sides differ by less than this share.
 constexpr double kClose = 1e-3;
 /// The same of misses, which hold the rounding of kept motion.
@@ -93,12 +95,12 @@ class Search {
 };
 
 double Search::nearestDistance(const Mirror& own) {
-  double nearest = kLargestHalf;
+  double nearest = kFarthest * -own.position.z;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       if (!neighbour(own, {x, y})) continue;
       const double d = frame_.lightAlpha[p_ + glm::ivec2(x, y)];
-      if (d > 0.0) nearest = std::min(nearest, std::max(d, -1e-3 * own.position.z));
+      if (d > 0.0 && d < kLargestHalf) nearest = std::min(nearest, std::max(d, -1e-3 * own.position.z));
     }
   }
   return nearest;
@@ -142,7 +144,7 @@ glm::dvec2 Search::imageMotion(const Mirror& own, double distance) {
     if (std::abs(c) < 0.05) c = 0.0;
     const double bent = 2.0 * c * (i == 0 ? 1.0 / cosine : cosine);
     double inverse = -own.position.z / distance + bent;
-    if (std::abs(inverse) < 1.0 / 3000.0) inverse = 1.0 / 3000.0;
+    if (std::abs(inverse) < 1.0 / kFarthest) inverse = 1.0 / kFarthest;
     images.at(i) = -own.position.z / inverse;
     const double fromEye = std::abs(1.0 + images.at(i) / eye);
     result_.undecided |= close(fromEye, 0.15);
