@@ -42,7 +42,7 @@ PASSES = [
 ]
 # Cycles has no pass of it: materials write it.
 ROUGHNESS = "Roughness"
-LOBES = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC"}
+LOBES = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC", "BSDF_GLASS"}
 
 
 def fail(message):
