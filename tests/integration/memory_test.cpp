@@ -228,6 +228,17 @@ TEST_F(CApiMemory, WithoutACallbackIsAnError) {
   EXPECT_EQ(walr_check_device(&host), WALR_SUCCESS);
 }
 
+TEST_F(CApiMemory, OfAnOlderHeaderIsWrittenNoFurther) {
+  constexpr std::uint64_t kOwn = 0x5a5a5a5a5a5a5a5a;  // The caller's, behind its structure.
+  WalrMemory known{};
+  known.struct_size = offsetof(WalrMemory, shared);
+  known.shared = kOwn;
+  const WalrDenoiserInfo described = info("accumulate");
+  require(walr_query_memory(&described, &known));
+  EXPECT_GT(known.allocated, 0U);
+  EXPECT_EQ(known.shared, kOwn);
+}
+
 TEST_F(CApiMemory, IsKnownBeforeItIsAllocated) {
   for (const std::string& method : denoiserNames()) {
     for (const bool lint : {false, true}) {
