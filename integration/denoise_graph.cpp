@@ -35,9 +35,7 @@ void checkLight(const LightPattern& light, const HostConventions& host) {
 /// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
   const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
-  if (input.texture == &DenoiserInputs::lighting && (conventions.light.hasAlpha() || conventions.specular)) {
-    return 4;
-  }
+  if (input.texture == &DenoiserInputs::lighting && conventions.samples().hasAlpha()) return 4;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;
@@ -66,8 +64,6 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
   }
   inputs.frame = graph.upload(std::string(kFrameName), sizeof(FrameConstants));
   inputs.conventions = conventions;
-  // A texel with a distance of 0 is no sample.
-  inputs.conventions.light.masked |= conventions.specular;
   inputs.scene.resizing = host.rectangle;
   return inputs;
 }

@@ -27,6 +27,13 @@ struct InputConventions {
   /// The light is specular: see `DenoiserInputs::roughness`.
   bool specular = false;
   LightPattern light = {};
+
+  /// Which pixels have a sample: as `light` says, and of specular light only those with a distance.
+  [[nodiscard]] LightPattern samples() const {
+    LightPattern pattern = light;
+    pattern.masked = light.masked || specular;
+    return pattern;
+  }
 };
 
 /// The textures that every denoiser takes; `objectId` and `confidence` may be left out. All have the extent of the

@@ -25,7 +25,7 @@ fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buf
       .sample("albedo", inputs.albedo)
       .dispatch(extent);
   if (inputs.conventions.light.fullSize()) pass.texels(extent);
-  specializeLight(pass, inputs.conventions.light);
+  specializeLight(pass, inputs.conventions.samples());
   return pass.update("counters", counters);
 }
 

@@ -119,8 +119,7 @@ class DenoiserOf final : public Denoiser {
     }
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
-    // A texel with a distance of 0 is no sample.
-    if (inputs.conventions.specular) described.conventions.light.masked = true;
+    described.conventions.light = inputs.conventions.samples();
     const fg::Texture denoised = kAdd(graph, described, output, settings_);
     graph.requireOutputs();
     return denoised;

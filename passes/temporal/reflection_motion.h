@@ -37,7 +37,8 @@ struct ReflectionMotion {
 /// surface, whichever ray of the previous frame comes closer to what is reflected.
 /// @param guides   with the geometric normal apart and with history
 /// @param settings of the accumulation that takes the result
-/// @throws std::invalid_argument if these settings do not test history by plane
+/// @throws std::invalid_argument if these settings do not test history by plane, or if objects move and the depth of
+///         their motion is not given
 ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                      const TemporalAccumulationSettings& settings,
                                      const ReflectionMotionSettings& reflection = {});

@@ -1,6 +1,7 @@
 // Where the light that a surface reflects was in the previous frame (passes/WALR.md, "Specular light"). It moves with
-// the mirror image of what is reflected, and on rough surfaces with the surface itself. A candidate for its place is tested
-// by the ray that the previous frame's surface reflected there: by how much it misses the point that is reflected now.
+// the mirror image of what is reflected, and on rough surfaces with the surface itself. A candidate for its place is
+// tested by the ray that the previous frame's surface reflected there: by how much it misses the point that is
+// reflected now.
 // The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
 // history (confidence.glsl).
 // Needs the geometric normal in a texture of its own. Tests history by plane.
@@ -51,7 +52,7 @@ const float kRoughnessTolerance = 0.1;    // Largest difference between surface 
 const float kLeastDistance = 1e-3;        // Of what is reflected, over view depth.
 const float kMostNormalChange = 0.5;      // Between pixels that tell the curvature.
 const int kCurvatureStep = 2;             // Pixels.
-const float kLargestMiss = 2.0;           // Of a unit vector from another.
+const float kNoHistory = 4.0;             // A miss larger than that of any two directions.
 
 // A reflecting surface at a pixel, in the view space of its frame.
 struct Reflector {
@@ -79,15 +80,14 @@ bool areOnOneSurface(vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
   return facing && abs(dot(b - a, normalA + normalB)) <= -2.0 * constants.planeTolerance * a.z;
 }
 
-// The neighbour of this frame's pixel `p`, if it shows the same surface.
-bool neighbourAt(ivec2 q, Reflector own, out Reflector found) {
-  found = own;
+// Whether this frame's pixel `q` shows the surface of `own`, and where.
+bool showsSurface(ivec2 q, Reflector own, out vec3 position) {
+  position = own.position;
   if (any(greaterThanEqual(uvec2(q), uvec2(textureSize(depth, 0))))) return false;
   const float z = depthAt(q);
   if (z == 0.0) return false;
-  found.position = rayThrough(frame.rayFromPixel, pixelCentre(q)) * z;
-  found.plane = unpackLongNormal(packedGeometricNormalAt(q));
-  return areOnOneSurface(own.position, own.plane, found.position, found.plane);
+  position = rayThrough(frame.rayFromPixel, pixelCentre(q)) * z;
+  return areOnOneSurface(own.position, own.plane, position, unpackLongNormal(packedGeometricNormalAt(q)));
 }
 
 // 1 over the smallest distance that a sample of the 3 x 3 neighbours on the same surface has. 0 without samples: what
@@ -95,10 +95,10 @@ bool neighbourAt(ivec2 q, Reflector own, out Reflector found) {
 float inverseDistanceAround(ivec2 p, Reflector own) {
   const float least = -kLeastDistance * own.position.z;
   float nearest = 0.0;
-  Reflector found;
+  vec3 position;
   for (int i = 0; i < 9; ++i) {
     const ivec2 q = p + ivec2(i % 3, i / 3) - 1;
-    if (!neighbourAt(q, own, found)) continue;
+    if (!showsSurface(q, own, position)) continue;
     const float distance = texelFetch(lighting, q, 0).a;
     // The largest half stands for all that is farther.
     if (distance > 0.0 && distance < kLargestHalf) nearest = max(nearest, 1.0 / max(distance, least));
@@ -110,13 +110,13 @@ float inverseDistanceAround(ivec2 p, Reflector own) {
 vec2 curvaturesAt(ivec2 p, Reflector own, Incidence incidence) {
   const float unit = -1.0 / own.position.z;
   ShapeSums sums = ShapeSums(mat2(0.0), mat2(0.0));
-  Reflector found;
+  vec3 position;
   for (int i = 0; i < 9; ++i) {
     const ivec2 q = p + kCurvatureStep * (ivec2(i % 3, i / 3) - 1);
-    if (i == 4 || !neighbourAt(q, own, found)) continue;
+    if (i == 4 || !showsSurface(q, own, position)) continue;
     const vec3 change = unpackLongNormal(texelFetch(shadingNormal, q, 0).x) - own.normal;
     if (dot(change, change) >= kMostNormalChange * kMostNormalChange) continue;
-    addDifference(sums, incidence, (found.position - own.position) * unit, change);
+    addDifference(sums, incidence, (position - own.position) * unit, change);
   }
   return curvaturesOf(sums);
 }
@@ -205,11 +205,11 @@ vec3 missOf(vec3 object, vec3 position, vec3 normal) {
 // A candidate for the place of reflected light in the previous image.
 struct Candidate {
   vec2 position;
-  float miss;  // kLargestMiss and more: there is no history.
+  float miss;  // kNoHistory: there is none.
 };
 
 Candidate candidateFrom(vec2 position, Before b, vec3 object) {
-  return Candidate(position, b.found ? length(missOf(object, b.position, b.normal)) : 2.0 * kLargestMiss);
+  return Candidate(position, b.found ? length(missOf(object, b.position, b.normal)) : kNoHistory);
 }
 
 // One step of Newton's method on the miss, in pixels of the previous frame.

@@ -30,11 +30,6 @@ Tracer::Options specularTracing() {
   return options;
 }
 
-Image inHalf(Image image) {
-  for (float& value : image.values()) value = toHalf(value);
-  return image;
-}
-
 // A mirror is in it as another surface, and the mirror's own light is not.
 TEST(HostSpecular, TracesAsWalrRenderDoes) {
   const test::TemporaryDirectory folder;
@@ -58,7 +53,7 @@ TEST(HostSpecular, TracesAsWalrRenderDoes) {
     const Frame frame = tracer.trace({.number = number, .animationFrame = double(number)});
     const Frame expected = sequence.read(static_cast<std::size_t>(number));
     const auto expectSame = [&](Image Frame::*image, const char* name) {
-      EXPECT_TRUE(std::ranges::equal(inHalf(frame.*image).values(), inHalf(expected.*image).values()))
+      EXPECT_TRUE(std::ranges::equal(inHalves(frame.*image).values(), inHalves(expected.*image).values()))
           << name << ", frame " << number;
     };
     expectSame(&Frame::indirect, "indirect");
@@ -73,7 +68,7 @@ TEST(HostSpecular, TracesAsWalrRenderDoes) {
 
 /// The lit image with specular light, from values in the precision of the textures.
 Image litWithSpecular(const Image& indirect, const Image& direct, const Image& specular, const Frame& frame) {
-  Image lit = composite(inHalf(indirect), inHalf(direct), inHalf(frame.albedo), inHalf(frame.emission));
+  Image lit = composite(inHalves(indirect), inHalves(direct), inHalves(frame.albedo), inHalves(frame.emission));
   for (std::size_t i = 0; i < lit.values().size(); ++i) {
     lit.values()[i] += toHalf(specular.values()[i]) * toHalf(frame.specularAlbedo.values()[i]);
   }

@@ -4,6 +4,8 @@
 
 #include "framegraph/declare/graph.h"
 #include "samples/host/tracer.h"
+#include "samples/image/half.h"
+#include "samples/image/image.h"
 
 namespace walr::host {
 
@@ -16,6 +18,12 @@ inline Tracer::Options tracing(const std::string& scene = "box.gltf") {
   options.extent = kExtent;
   options.denoiseDirect = false;  // So that the composite has both lights.
   return options;
+}
+
+/// As textures of halves hold it.
+inline Image inHalves(Image image) {
+  for (float& value : image.values()) value = toHalf(value);
+  return image;
 }
 
 }  // namespace walr::host

@@ -12,7 +12,6 @@
 #include "samples/denoise/frame_output.h"
 #include "samples/host/tracer.h"
 #include "samples/image/exposure.h"
-#include "samples/image/half.h"
 #include "samples/render/film.h"
 #include "samples/render/load_scene.h"
 #include "samples/render/render_sequence.h"
@@ -124,11 +123,6 @@ TEST(Tracer, FollowsTheFrameBefore) {
   EXPECT_GT(tracer.bounds().w, 2.0F);
 }
 
-Image rounded(Image image) {
-  for (float& value : image.values()) value = toHalf(value);
-  return image;
-}
-
 // The camera moves from frame 4 on.
 TEST(Tracer, ResamplesAsWalrRenderDoes) {
   const test::TemporaryDirectory folder;
@@ -150,9 +144,9 @@ TEST(Tracer, ResamplesAsWalrRenderDoes) {
     Tracer::Request request{.number = number, .animationFrame = double(number)};
     const Image light = plain.trace(request).indirect;
     request.resampledFrames = options.resampledFrames;
-    const Image resampled = rounded(tracer.trace(request).indirect);
+    const Image resampled = inHalves(tracer.trace(request).indirect);
     EXPECT_TRUE(std::ranges::equal(resampled.values(), expected.indirect.values())) << number;
-    EXPECT_FALSE(std::ranges::equal(rounded(light).values(), expected.indirect.values())) << number;
+    EXPECT_FALSE(std::ranges::equal(inHalves(light).values(), expected.indirect.values())) << number;
   }
 }
 
