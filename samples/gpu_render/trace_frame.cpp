@@ -71,11 +71,9 @@ SceneState sceneState(const render::World& world) {
 
 TraceConstants traceConstants(const render::World& world, const render::View& view,
                               const render::SamplingSettings& settings, const render::ReferenceCoverage& coverage) {
-  const auto refuse = [](const std::string& what) {
-    throw render::SceneError("the path tracer on the GPU has no " + what + ": use --tracer cpu");
-  };
-  if (settings.gbuffer == render::GBufferMode::Material) refuse("G-buffer by material (--gbuffer material)");
-  if (settings.reservoirs != nullptr) refuse("resampling (--resampled-frames)");
+  if (settings.reservoirs != nullptr) {
+    throw render::SceneError("the path tracer on the GPU has no resampling (--resampled-frames): use --tracer cpu");
+  }
   const render::Scene& scene = world.scene();
   TraceConstants constants{};
   constants.viewFromWorld = view.viewFromWorld;

@@ -105,19 +105,8 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
       ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"denoised", true}, {"noisy", false}}))
       ->type_name("")
       ->default_str("denoised");
-  program
-      .add_option(
-          "--gbuffer", tracer.gbuffer,
-          "first-hit: depth, normal and albedo of the first surface; metals have no light. material: a mirror takes "
-          "them from the surface that it reflects, a glossy metal only the albedo (Fu 2022)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, render::GBufferMode>{
-          {"first-hit", render::GBufferMode::FirstHit}, {"material", render::GBufferMode::Material}}))
-      ->type_name("")
-      ->default_str("first-hit");
-  program
-      .add_flag("--specular", tracer.specular,
-                "Materials reflect with the specular lobe of glTF, too; its light is shown as it was traced")
-      ->excludes("--gbuffer");
+  program.add_flag("--specular", tracer.specular,
+                   "Materials reflect with the specular lobe of glTF, too; its light is shown as it was traced");
   program
       .add_flag_callback(
           "--replace-mirrors", [&tracer] { tracer.gbuffer = render::GBufferMode::BehindMirrors; },

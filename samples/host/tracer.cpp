@@ -37,9 +37,6 @@ Tracer::Content::Content(const Options& options, bool onDevice)
     : scene(render::loadScene(options.scene, options.sky)),
       camera(render::findCamera(scene, options.camera)),
       world(scene, onDevice ? render::RayCasting::None : render::RayCasting::Embree) {
-  if (onDevice && options.gbuffer == render::GBufferMode::Material) {
-    throw render::SceneError("--gbuffer material: the path tracer on the GPU has only first-hit; use --tracer cpu");
-  }
   scene.specular = options.specular;
 }
 

@@ -6,7 +6,6 @@
 
 #include "samples/render/exact/specular.h"
 #include "samples/render/path_tracer.h"
-#include "samples/render/reflection.h"
 #include "samples/render/tiles.h"
 
 namespace walr::render {
@@ -67,40 +66,11 @@ class PixelTracer {
     return pixel;
   }
 
-  // The light of a glossy metal, all of it counted as indirect, divided by the mean of the albedos that it reflects.
-  // That mean is written to `albedo`. It uses a fixed seed, so that it is the same in every frame and in the reference.
-  PixelLight glossy(const PrimaryHit& hit, glm::vec3& albedo) const {
-    PixelLight light;
-    glm::vec3 sum(0.0F);
-    for (std::uint32_t s = 0; s < kAlbedoSamples; ++s) {
-      Sampler sampler(Sampler::Kind::Sobol, kAlbedoSeed, pixel_, s);
-      const GlossySample sample = traceGlossy(world_, *hit.surface, 0, sampler, false);
-      sum += sample.albedo;
-      light.rays += sample.rays;
-    }
-    const glm::vec3 shown = sum / static_cast<float>(kAlbedoSamples);
-    albedo = hit.tint * shown;
-    for (std::uint32_t s = 0; s < settings_.samples; ++s) {
-      Sampler sampler = samplerOf(s);
-      const GlossySample sample = traceGlossy(world_, *hit.surface, bounces_, sampler, true);
-      for (int c = 0; c < 3; ++c) {
-        light.indirect[c] += shown[c] > 0.0F ? sample.radiance[c] / shown[c] : 0.0;
-      }
-      light.rays += sample.rays;
-    }
-    return mean(light);
-  }
-
  private:
-  static constexpr std::uint32_t kAlbedoSamples = 16;
-  static constexpr std::uint32_t kAlbedoSeed = 0xa1bed0U;
   static constexpr std::uint32_t kChoiceSeed = 0xc401ceU;
 
-  [[nodiscard]] Sampler samplerOf(std::uint32_t sample) const {
-    return {settings_.sampler, settings_.seed, pixel_, settings_.firstSample + sample};
-  }
   [[nodiscard]] PathSample trace(const Surface& surface, std::uint32_t sample) const {
-    Sampler sampler = samplerOf(sample);
+    Sampler sampler(settings_.sampler, settings_.seed, pixel_, settings_.firstSample + sample);
     return tracePath(world_, surface, bounces_, sampler);
   }
   static void add(PixelLight& light, const PathSample& path) {
@@ -146,8 +116,6 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
             const PrimaryHit hit = tracePrimary(world, view, x, y, settings.gbuffer);
             film.gbuffer[index] = hit.pixel;
             ++tileRays;
-            const bool byMaterial = settings.gbuffer == GBufferMode::Material;
-            const bool glossy = byMaterial && hit.surface && glossOf(*hit.surface) == Gloss::Glossy;
             if (!hit.surface) {
               continue;
             }
@@ -160,12 +128,11 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
               film.specular[index] = tracer.specular(*hit.surface, sampled, tileRays);
               film.specular[index].albedo *= hit.tint;
             }
-            if (!glossy && hit.pixel.albedo == glm::vec3(0.0F)) {
+            if (hit.pixel.albedo == glm::vec3(0.0F)) {
               continue;
             }
-            const PixelLight light = glossy                ? tracer.glossy(hit, film.gbuffer[index].albedo)
-                                     : settings.reservoirs ? tracer.resampled(hit, *settings.reservoirs, x, y)
-                                                           : tracer.diffuse(*hit.surface);
+            const PixelLight light =
+                settings.reservoirs ? tracer.resampled(hit, *settings.reservoirs, x, y) : tracer.diffuse(*hit.surface);
             film.direct[index] = glm::vec3(light.direct);
             if (sampled) film.indirect[index] = glm::vec3(light.indirect);
             tileRays += light.rays;

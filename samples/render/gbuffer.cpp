@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 
 #include "samples/render/exact/specular.h"
-#include "samples/render/reflection.h"
 
 namespace walr::render {
 namespace {
@@ -22,6 +21,15 @@ glm::vec2 imageMotion(const View& view, std::uint32_t x, std::uint32_t y, const 
   }
   const glm::vec2 center = glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5F;
   return glm::clamp(project(view, previous) - view.previousJitter - center, -outside, outside);
+}
+
+// The share of the light from `direction` that a mirror reflects; 0 if the direction leads below the surface.
+glm::vec3 mirrorWeight(const Surface& surface, const glm::vec3& direction) {
+  if (glm::dot(surface.geometricNormal, direction) <= 0.0F) {
+    return glm::vec3(0.0F);
+  }
+  const float cosine = glm::dot(surface.shadingNormal, surface.towardsViewer);
+  return glm::mix(exact::reflectanceOf(surface.reflectance, surface.metallic), glm::vec3(1.0F), exact::grazing(cosine));
 }
 
 }  // namespace
@@ -40,14 +48,12 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
       return result;
     }
     const Surface surface = evaluateSurface(world.scene(), world.instances()[hit->instance], *hit, ray);
-    const bool isMirror = mode == GBufferMode::Material ? glossOf(surface) == Gloss::Specular
-                                                        : mode == GBufferMode::BehindMirrors &&
-                                                              exact::isMirror(surface.metallic, surface.roughness);
+    const bool isMirror = mode == GBufferMode::BehindMirrors && exact::isMirror(surface.metallic, surface.roughness);
     if (isMirror && mirrors < exact::kMostMirrors) {
-      const Reflection reflection = mirrored(surface);
-      result.tint *= reflection.weight;
+      const glm::vec3 direction = exact::mirrorDirection(surface.shadingNormal, surface.towardsViewer);
+      result.tint *= mirrorWeight(surface, direction);
       imageFromWorld = imageFromWorld * exact::reflectionAt(surface.shadingNormal, surface.position);
-      ray = {rayOrigin(surface, reflection.direction), reflection.direction};
+      ray = {rayOrigin(surface, direction), direction};
       continue;
     }
     const glm::mat4 viewFromWorld = view.viewFromWorld * imageFromWorld;

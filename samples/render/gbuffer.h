@@ -18,7 +18,7 @@ struct GBufferPixel {
 
   glm::vec3 position{0.0F};  ///< View space; 0 on sky.
   glm::vec3 normal{0.0F};    ///< View space shading normal towards the camera, unit; 0 on sky.
-  glm::vec3 albedo{0.0F};    ///< Diffuse; 0 on sky and, with `GBufferMode::FirstHit`, on metals.
+  glm::vec3 albedo{0.0F};    ///< Diffuse; 0 on sky and on metals.
   glm::vec3 emission{0.0F};  ///< Radiance of a visible emitter or of the sky.
   glm::vec3 motion{0.0F};    ///< Pixels to the previous frame, y down, between the jittered images; z: previous minus
                              ///< current view depth. On sky: motion of the ray's direction, z = 0.
@@ -27,12 +27,9 @@ struct GBufferPixel {
 
 /// Which surface the G-buffer describes.
 enum class GBufferMode : std::uint8_t {
-  FirstHit,  ///< The first surface. Metals have no light.
+  FirstHit,
   /// A mirror (`exact::isMirror`) is replaced by the virtual image of the surface that it reflects.
   BehindMirrors,
-  /// Blended by material (Fu 2022). Of mirrors the same, by another threshold (`glossOf`). A glossy metal keeps its own
-  /// depth and normal, and its albedo is the mean of the albedos that it reflects.
-  Material,
 };
 
 /// One pixel's G-buffer entry, and the surface in world space where its light is gathered.

@@ -202,10 +202,6 @@ TEST_F(GpuHost, TracesAnotherScene) {
 }
 
 TEST_F(GpuHost, RefusesWhatOnlyTheProcessorTraces) {
-  Tracer::Options material = tracing("box.gltf");
-  material.gbuffer = render::GBufferMode::Material;
-  EXPECT_THROW(Tracer(material, &gpu), render::SceneError);
-
   Tracer tracer(tracing("box.gltf"), &gpu);
   EXPECT_NE(tracer.whyNotResampled().find("--tracer cpu"), std::string::npos);
   EXPECT_THROW(tracer.hostFrame({.resampledFrames = 20}), std::invalid_argument);

@@ -33,10 +33,7 @@ TEST_F(GpuScenes, RefuseWhatTheyDoNotHave) {
   const render::View view = render::viewFrom(world, render::findCamera(scene, {}), 16, 9, {}, {});
   FilmTracer tracer(gpu, world);
   render::SamplingSettings settings;
-  settings.gbuffer = render::GBufferMode::Material;
-  EXPECT_THROW(tracer.film(view, settings), render::SceneError);
   render::Reservoirs reservoirs(16, 9, 20.0F);
-  settings.gbuffer = render::GBufferMode::FirstHit;
   settings.reservoirs = &reservoirs;
   EXPECT_THROW(tracer.film(view, settings), render::SceneError);
   settings.reservoirs = nullptr;

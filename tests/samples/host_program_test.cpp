@@ -128,7 +128,6 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene, "-o", output.string(), "--light-rate", "1/4", "--resampled-frames", "20"}, "--resampled-frames");
   expectUsage({scene, "-o", output.string(), "--tracer", "gpu", "--resampled-frames", "20"}, "--tracer cpu");
   expectUsage({scene, "-o", output.string(), "--replace-mirrors"}, "--specular");
-  expectUsage({scene, "-o", output.string(), "--specular", "--gbuffer", "material"}, "--gbuffer");
   expectUsage({scene, "-o", output.string(), "--specular", "--light-rate", "1/4"}, "--light-rate");
   expectUsage({scene, "-o", output.string(), "--specular", "--resampled-frames", "20"}, "--resampled-frames");
   expectUsage({scene, "-o", output.string(), "--resampled-frames", "1001"}, "--resampled-frames");

@@ -481,16 +481,16 @@ TEST_F(HostTest, WritesPicturesThatReadBack) {
   EXPECT_TRUE(std::ranges::equal(lit.values(), frame.composite.values()));
 }
 
-/// The box with one of its materials turned into a metal.
-std::filesystem::path boxWithMetal(const test::TemporaryDirectory& folder, const std::string& name, double roughness) {
+/// The box with its tiles turned into a mirror.
+std::filesystem::path boxWithMirror(const test::TemporaryDirectory& folder) {
   nlohmann::json scene = nlohmann::json::parse(std::ifstream(WALR_SCENES "/box.gltf"));
   for (nlohmann::json& material : scene["materials"]) {
-    if (material["name"] == name) {
+    if (material["name"] == "tiles") {
       material["pbrMetallicRoughness"] = {
-          {"baseColorFactor", {0.9, 0.9, 0.9, 1.0}}, {"metallicFactor", 1.0}, {"roughnessFactor", roughness}};
+          {"baseColorFactor", {0.9, 0.9, 0.9, 1.0}}, {"metallicFactor", 1.0}, {"roughnessFactor", 0.0}};
     }
   }
-  const std::filesystem::path file = folder.path() / "metal.gltf";
+  const std::filesystem::path file = folder.path() / "mirror.gltf";
   std::ofstream(file) << scene;
   return file;
 }
@@ -514,34 +514,33 @@ double shownError(const Image& indirect, const Frame& frame, const std::vector<b
   return std::sqrt(sum / count);
 }
 
-/// Pixels of a metal in which another surface is reflected.
-std::vector<bool> metalMask(const Frame& own, const Frame& shown) {
-  std::vector<bool> metal(shown.albedo.pixelCount());
-  for (std::size_t i = 0; i < metal.size(); ++i) {
-    metal[i] = own.albedo.pixel(i)[1] == 0.0F && shown.albedo.pixel(i)[1] > 0.0F;
+/// Pixels of a mirror in which another surface is reflected.
+std::vector<bool> mirrorMask(const Frame& own, const Frame& shown) {
+  std::vector<bool> mirror(shown.albedo.pixelCount());
+  for (std::size_t i = 0; i < mirror.size(); ++i) {
+    mirror[i] = own.albedo.pixel(i)[1] == 0.0F && shown.albedo.pixel(i)[1] > 0.0F;
   }
-  return metal;
+  return mirror;
 }
 
-/// SVGF's result for some frames with a G-buffer by material, and the last of these frames.
-struct DenoisedMetal {
+/// SVGF's result for some frames with replaced mirrors, and the last of these frames.
+struct DenoisedMirror {
   Frame own;
   Frame shown;
   Image indirect;
 };
-DenoisedMetal denoiseMetal(const GpuDevice& gpu, Tracer::Options options,
-                           render::GBufferMode gbuffer = render::GBufferMode::Material) {
+DenoisedMirror denoiseMirror(const GpuDevice& gpu, Tracer::Options options) {
   options.referenceSamples = 64;
   Tracer firstHit(options);
-  options.gbuffer = gbuffer;
-  Tracer byMaterial(options);
+  options.gbuffer = render::GBufferMode::BehindMirrors;
+  Tracer replaced(options);
   const std::unique_ptr<Denoiser> svgf = makeDenoiser("svgf");
   GpuDenoiser denoiser(gpu, *svgf, kExtent, projectLayout());
-  DenoisedMetal result;
+  DenoisedMirror result;
   for (int number = kFrames.first; number <= kFrames.last; ++number) {
     const bool last = number == kFrames.last;
     result.own = firstHit.trace({.number = number, .animationFrame = double(number)});
-    result.shown = byMaterial.trace({.number = number, .animationFrame = double(number), .reference = last});
+    result.shown = replaced.trace({.number = number, .animationFrame = double(number), .reference = last});
     result.indirect = denoiser.run(packFrame(result.shown)).lights.front();
   }
   return result;
@@ -552,34 +551,18 @@ DenoisedMetal denoiseMetal(const GpuDevice& gpu, Tracer::Options options,
 TEST_F(HostTest, WhatAMirrorShowsIsDenoised) {
   const test::TemporaryDirectory folder;
   Tracer::Options options = tracing();
-  options.scene = boxWithMetal(folder, "tiles", 0.0);
-  for (const auto gbuffer : {render::GBufferMode::Material, render::GBufferMode::BehindMirrors}) {
-    options.specular = gbuffer == render::GBufferMode::BehindMirrors;
-    const DenoisedMetal result = denoiseMetal(gpu, options, gbuffer);
-    const std::vector<bool> mirror = metalMask(result.own, result.shown);
-    ASSERT_GT(std::ranges::count(mirror, true), 200);
-    for (std::size_t i = 0; i < mirror.size(); ++i) {
-      const float shown = result.shown.depth.values()[i];
-      const float own = result.own.depth.values()[i];
-      ASSERT_TRUE(mirror[i] ? shown > own : shown >= own) << "pixel " << i;
-    }
-    EXPECT_LT(shownError(result.indirect, result.shown, mirror),
-              0.5 * shownError(result.shown.indirect, result.shown, mirror));
+  options.scene = boxWithMirror(folder);
+  options.specular = true;
+  const DenoisedMirror result = denoiseMirror(gpu, options);
+  const std::vector<bool> mirror = mirrorMask(result.own, result.shown);
+  ASSERT_GT(std::ranges::count(mirror, true), 200);
+  for (std::size_t i = 0; i < mirror.size(); ++i) {
+    const float shown = result.shown.depth.values()[i];
+    const float own = result.own.depth.values()[i];
+    ASSERT_TRUE(mirror[i] ? shown > own : shown >= own) << "pixel " << i;
   }
-}
-
-// A glossy metal keeps its own guides. Its light is the reflected radiance divided by the reflected albedos.
-TEST_F(HostTest, AGlossyMetalIsDenoisedOverTheAlbedosThatItShows) {
-  const test::TemporaryDirectory folder;
-  Tracer::Options options = tracing();
-  options.scene = boxWithMetal(folder, "tiles", 0.4);
-  const DenoisedMetal result = denoiseMetal(gpu, options);
-  EXPECT_TRUE(std::ranges::equal(result.own.depth.values(), result.shown.depth.values()));
-  EXPECT_TRUE(std::ranges::equal(result.own.normal.values(), result.shown.normal.values()));
-  const std::vector<bool> metal = metalMask(result.own, result.shown);
-  ASSERT_GT(std::ranges::count(metal, true), 200);
-  EXPECT_LT(shownError(result.indirect, result.shown, metal),
-            0.5 * shownError(result.shown.indirect, result.shown, metal));
+  EXPECT_LT(shownError(result.indirect, result.shown, mirror),
+            0.5 * shownError(result.shown.indirect, result.shown, mirror));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The G-buffer blended by material. Mirrors are compared with a scene where the mirrored object stands behind the
-// mirror's plane; glossy metals are compared with a quadrature of their reflection.
+// Mirrors that are replaced by what they show are compared with a scene where the mirrored object stands behind the
+// mirror's plane.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,19 +9,15 @@
 
 #include "samples/render/film.h"
 #include "samples/render/gbuffer.h"
-#include "samples/render/reflection.h"
 #include "samples/render/view.h"
 #include "samples/render/world.h"
 #include "tests/render/ggx.h"
 #include "tests/render/scene_builder.h"
-#include "tests/render/statistics.h"
 
 namespace walr::render {
 namespace {
 
-using test::kConfidence;
 using test::SceneBuilder;
-using test::Statistics;
 
 constexpr std::uint32_t kWidth = 48;
 constexpr std::uint32_t kHeight = 32;
@@ -66,10 +62,7 @@ struct MirrorScene {
   std::uint32_t camera = 0;
 };
 
-class Mirrors : public testing::TestWithParam<GBufferMode> {};
-INSTANTIATE_TEST_SUITE_P(Modes, Mirrors, testing::Values(GBufferMode::BehindMirrors, GBufferMode::Material));
-
-TEST_P(Mirrors, ShowWhatStandsBehindThem) {
+TEST(Mirrors, ShowWhatStandsBehindThem) {
   MirrorScene before(true);
   MirrorScene behind(false);
   World mirror(before.builder.scene());
@@ -86,8 +79,8 @@ TEST_P(Mirrors, ShowWhatStandsBehindThem) {
         continue;  // The ray misses the mirror.
       }
       EXPECT_EQ(first.pixel.albedo, glm::vec3(0.0F));
-      const PrimaryHit shown = tracePrimary(mirror, view, x, y, GetParam());
-      const PrimaryHit expected = tracePrimary(image, view, x, y, GetParam());
+      const PrimaryHit shown = tracePrimary(mirror, view, x, y, GBufferMode::BehindMirrors);
+      const PrimaryHit expected = tracePrimary(image, view, x, y, GBufferMode::BehindMirrors);
       if (shown.surface.has_value() != expected.surface.has_value()) {
         ++edges;
         continue;
@@ -131,71 +124,6 @@ TEST(MirrorsInFilms, AreReplacedBelowTheirRoughness) {
     EXPECT_NEAR(film.gbuffer[0].albedo.x, tint * 0.8, 1e-5);
     EXPECT_NEAR(film.specular[0].albedo.x, tint * 0.02, 1e-6);                // A rough dielectric's is the least.
     EXPECT_NEAR(film.gbuffer[0].position.z, -3.0F * std::sqrt(2.0F), 1e-4F);  // 2 down, and 1 to the wall.
-  }
-}
-
-// Under a sky of radiance 1 both the radiance and the albedo of a sample estimate the directional albedo.
-TEST(MaterialGBuffer, GlossySamplesMatchTheDirectionalAlbedo) {
-  for (const float roughness : {0.3F, 0.6F, 1.0F}) {
-    SCOPED_TRACE(roughness);
-    SceneBuilder builder;
-    builder.sky(glm::vec3(1.0F));
-    builder.quad(metal(builder, glm::vec3(0.4F), roughness), {-9.0F, -1.0F, 9.0F}, {18.0F, 0.0F, 0.0F},
-                 {0.0F, 0.0F, -18.0F});
-    const std::uint32_t camera = builder.camera({0.0F, 1.0F, 2.0F}, {0.0F, -1.0F, 0.0F});
-    const World world(builder.scene());
-    const View view = viewFrom(world, camera, 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
-    const PrimaryHit hit = tracePrimary(world, view, 0, 0, GBufferMode::Material);
-    ASSERT_EQ(glossOf(*hit.surface), Gloss::Glossy);
-    const double cosine = glm::dot(hit.surface->shadingNormal, hit.surface->towardsViewer);
-    Statistics radiance;
-    for (std::uint32_t i = 0; i < 40000; ++i) {
-      Sampler sampler(Sampler::Kind::Independent, 1, 0, i);
-      const GlossySample sample = traceGlossy(world, *hit.surface, 0, sampler, true);
-      EXPECT_EQ(sample.albedo, sample.radiance);
-      radiance.add(sample.radiance.x);
-    }
-    EXPECT_NEAR(radiance.mean(), test::directionalAlbedo(cosine, roughness, 0.4),
-                kConfidence * radiance.standardError());
-  }
-}
-
-// For a glossy metal, the film's albedo times its light is the metal's radiance. Depth and normal are those of the
-// metal.
-TEST(MaterialGBuffer, AlbedoTimesLightOfAGlossyMetalIsItsRadiance) {
-  SceneBuilder builder;
-  builder.sky(glm::vec3(1.0F));
-  builder.quad(metal(builder, glm::vec3(0.9F, 0.5F, 0.2F), 0.4F), {-9.0F, -1.0F, 9.0F}, {18.0F, 0.0F, 0.0F},
-               {0.0F, 0.0F, -18.0F});
-  // A wall of another albedo fills half of what the metal reflects.
-  builder.quad(builder.material({0.2F, 0.6F, 0.8F}), {0.0F, -1.0F, 9.0F}, {0.0F, 9.0F, 0.0F}, {0.0F, 0.0F, -18.0F});
-  const std::uint32_t camera = builder.camera({-2.0F, 1.0F, 0.0F}, {-0.5F, -1.0F, 0.0F});
-  const World world(builder.scene());
-  const View view = viewFrom(world, camera, 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
-  const PrimaryHit first = tracePrimary(world, view, 0, 0);
-  const PrimaryHit hit = tracePrimary(world, view, 0, 0, GBufferMode::Material);
-  ASSERT_EQ(glossOf(*hit.surface), Gloss::Glossy);
-  EXPECT_EQ(hit.pixel.position, first.pixel.position);
-  EXPECT_EQ(hit.pixel.normal, first.pixel.normal);
-
-  Statistics radiance[3];
-  for (std::uint32_t i = 0; i < 20000; ++i) {
-    Sampler sampler(Sampler::Kind::Independent, 5, 0, i);
-    const GlossySample sample = traceGlossy(world, *hit.surface, 3, sampler, true);
-    for (int c = 0; c < 3; ++c) radiance[c].add(sample.radiance[c]);
-  }
-  SamplingSettings settings;
-  settings.samples = 20000;
-  settings.bounces = 3;
-  settings.sampler = Sampler::Kind::Independent;
-  settings.gbuffer = GBufferMode::Material;
-  const Film film = renderFilm(world, view, settings);
-  for (int c = 0; c < 3; ++c) {
-    const double shown = double(film.gbuffer[0].albedo[c]) * double(film.indirect[0][c]);
-    // Both are means of equally many paths, so that their difference has twice the variance.
-    EXPECT_NEAR(shown, radiance[c].mean(), kConfidence * std::sqrt(2.0) * radiance[c].standardError())
-        << "channel " << c;
-    EXPECT_GT(film.gbuffer[0].albedo[c], 0.0F);
   }
 }
 
