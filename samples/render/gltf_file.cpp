@@ -166,6 +166,22 @@ std::string samePath(const std::string& path, void* /*user*/) {
   return path;
 }
 
+bool refuseToWrite(std::string* /*errors*/, const std::string& /*file*/, const std::vector<unsigned char>& /*bytes*/,
+                   void* /*user*/) {
+  return false;
+}
+
+// Newer versions of tinygltf ignore all callbacks if one of theirs is missing.
+template <typename Callbacks>
+void addSizeOfFiles(Callbacks& callbacks) {
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+      *size = 0;  // `readFile` looks at it.
+      return true;
+    };
+  }
+}
+
 // Of one line, and short: the parser quotes data URIs.
 std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 300;
@@ -196,6 +212,8 @@ tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* conten
   callbacks.FileExists = &fileExists;
   callbacks.ExpandFilePath = &samePath;
   callbacks.ReadWholeFile = &readFile;
+  callbacks.WriteWholeFile = &refuseToWrite;
+  addSizeOfFiles(callbacks);
   callbacks.user_data = &files;
   parser.SetFsCallbacks(callbacks);
 

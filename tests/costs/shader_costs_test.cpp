@@ -97,22 +97,31 @@ class ShaderCostsOfTheDefault : public ::testing::Test {
     costs_ = methodCosts({"walr", ""}, kExtent, *device_, trips_);
   }
 
+  /// Why trip counts need not hold, if another compiler than that of the table may unroll other loops.
+  [[nodiscard]] std::string otherCompiler() const {
+    const std::string& known = shaderFigures().driver;
+    if (device_->driver() == known) return {};
+    return "compiled by " + device_->driver() + "; the trip counts are those of " + known;
+  }
+
   std::optional<NullDevice> device_;
   TripCounts trips_{WALR_COSTS "/trip_counts.json"};
   MethodCosts costs_;
 };
 
 TEST_F(ShaderCostsOfTheDefault, CoverThePlan) {
-  EXPECT_TRUE(costs_.cyclesPerPixel().has_value()) << "some loop has no trip count";
   for (const PassCosts& pass : costs_.passes) {
     EXPECT_GT(pass.bytes, 0U) << pass.pass;
     EXPECT_GT(pass.threads, 0U) << pass.pass;
     EXPECT_GT(pass.compiled.instructions, 0U) << pass.pass;
     EXPECT_GT(pass.compiled.vectorRegisters, 0U) << pass.pass;
   }
+  if (const std::string other = otherCompiler(); !other.empty()) GTEST_SKIP() << other;
+  EXPECT_TRUE(costs_.cyclesPerPixel().has_value()) << "some loop has no trip count";
 }
 
 TEST_F(ShaderCostsOfTheDefault, GiveTheEstimatesThatProgramsComputeFromTheFigures) {
+  if (const std::string other = otherCompiler(); !other.empty()) GTEST_SKIP() << other;
   const FigureTable table = figuresOf({costs_}, *device_, trips_, machineNamed("w6800"));
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "figures.json";
   std::ofstream(file) << figuresJson(table);
