@@ -109,6 +109,7 @@ class DenoiserOf final : public Denoiser {
   }
 
   [[nodiscard]] bool sharesGuides() const override { return method_.sharesGuides; }
+  [[nodiscard]] bool takesSpecularLight() const override { return method_.takesSpecularLight; }
 
   fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) override {
     checkSettings();

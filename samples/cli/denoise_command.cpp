@@ -108,9 +108,10 @@ std::string viewList(const std::vector<ViewInfo>& views) {
   return text;
 }
 
-/// @throws UsageError if the method does not take the light
+/// @throws UsageError if the method does not take a light
 std::vector<ViewInfo> viewsOf(const DenoiseOptions& options, Denoiser& method) {
   try {
+    if (options.light == "all") (void)method.views({.specular = true});
     return method.views({.specular = options.light == "specular"});
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
@@ -139,19 +140,22 @@ void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
 
 /// @throws UsageError naming an option that specular light does not have
 void refuseWithSpecularLight(const DenoiseOptions& options) {
-  const auto refuse = [](const std::string& option) {
-    throw UsageError("--light specular cannot have " + option + " yet: leave out one of them");
+  const auto refuse = [&](const std::string& option) {
+    throw UsageError("--light " + options.light + " cannot have " + option + ": leave out one of them");
   };
-  if (options.output.composite) refuse("--composite");
-  if (options.directLight == "reference") refuse("--direct-light reference");
   if (options.average > 1) refuse("--average");
+  if (options.light == "all") return;
+  if (options.output.composite) {
+    throw UsageError("--composite makes whole pictures: give --light all, which denoises diffuse light, too");
+  }
+  if (options.directLight == "reference") refuse("--direct-light reference");
   if (options.lightDirection) refuse("--light-direction");
   if (!options.sequence.keptLight.everyPixel()) refuse("--light-rate");
 }
 
 /// The value of --light, or its default.
 std::string chosenLight(const DenoiseOptions& options) {
-  if (options.light == "specular") refuseWithSpecularLight(options);
+  if (options.light == "specular" || options.light == "all") refuseWithSpecularLight(options);
   const bool directIsReference = options.directLight == "reference";
   if (options.light.empty()) return options.output.composite && !directIsReference ? "both" : "indirect";
   if (directIsReference && options.light != "indirect") {
@@ -165,6 +169,7 @@ std::string chosenLight(const DenoiseOptions& options) {
 std::vector<Light> lightsOf(const std::string& light) {
   std::vector<Light> lights;
   if (light == "specular") return {Light::Specular};
+  if (light == "all") return {Light::Indirect, Light::Direct, Light::Specular};
   if (light != "direct") lights.push_back(Light::Indirect);
   if (light != "indirect") lights.push_back(Light::Direct);
   return lights;
@@ -185,11 +190,11 @@ SettingsText settingsOf(Denoiser& method) {
 
 /// What must be read to denoise these lights and to write what was asked for.
 LightWish lightsToRead(const OutputOptions& output, std::span<const Light> denoised) {
-  if (output.composite) return kWholePicture;
   const auto isDenoised = [&](Light light) { return std::ranges::find(denoised, light) != denoised.end(); };
-  return {.indirect = isDenoised(Light::Indirect),
-          .direct = isDenoised(Light::Direct),
-          .specular = isDenoised(Light::Specular)};
+  LightWish wish{.indirect = isDenoised(Light::Indirect), .direct = isDenoised(Light::Direct)};
+  if (output.composite) wish = kWholePicture;
+  if (isDenoised(Light::Specular)) wish.specular = SpecularWish::Denoised;
+  return wish;
 }
 
 /// Says once what a composite consists of beside the denoised lights.
@@ -226,7 +231,7 @@ DenoiseReport newReport(const DenoiseOptions& options, const std::string& light,
   DenoiseReport report;
   report.method = options.method.name;
   report.settings = settingsOf(*methods.front().method);
-  if (methods.size() > 1) report.directSettings = settingsOf(*methods.back().method);
+  if (methods.size() > 1) report.directSettings = settingsOf(*methods[1].method);
   report.device = device.name();
   report.driver = device.driver();
   report.softwareDevice = device.isSoftware();
@@ -366,15 +371,15 @@ void registerDenoise(CLI::App& program) {
   command
       ->add_option("--light", options->light,
                    "Light to denoise: the indirect or the direct part of diffuse light, or both, each by itself; or "
-                   "specular light, method accumulate. Default: indirect, and both with --composite. Views and "
-                   "counters are those of the indirect light, if it is denoised")
-      ->check(CLI::IsMember({"indirect", "direct", "both", "specular"}))
-      ->option_text("indirect|direct|both|specular");
-  command->add_flag(
-      "--composite", options->output.composite,
-      "Also write the lit image as R,G,B: albedo * (direct + indirect), emission, and the light that is "
-      "not diffuse, as it is. The denoised lights then have the names that they have in the frames, which "
-      "Blender's compositor knows");
+                   "specular light, or all of it. Default: indirect, and both with --composite. Views and counters are "
+                   "those of the indirect light, if it is denoised")
+      ->check(CLI::IsMember({"indirect", "direct", "both", "specular", "all"}))
+      ->option_text("indirect|direct|both|specular|all");
+  command->add_flag("--composite", options->output.composite,
+                    "Also write the lit image as R,G,B: albedo * (direct + indirect), emission, and the light that is "
+                    "not diffuse, as it is; but with --light all, specular light is denoised. The denoised lights then "
+                    "have the names that they have in the frames, which "
+                    "Blender's compositor knows");
   command
       ->add_option("--average", options->average,
                    "For frames with several primary hits per pixel of the picture: writes pictures whose pixels are "

@@ -34,7 +34,7 @@ struct LintOptions {
 void lint(LintOptions& options) {
   if (!options.frames.empty()) options.sequence.frames = parseFrameRange(options.frames);
   options.sequence.nonFinite = NonFinitePolicy::Replace;
-  options.sequence.light.specular = true;
+  options.sequence.light.specular = SpecularWish::IfHeld;
   const Sequence sequence(options.input, options.sequence);
   const Layout& layout = sequence.denoiserLayout();
   GpuDevice device(options.gpu);

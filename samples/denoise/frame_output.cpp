@@ -73,6 +73,13 @@ std::vector<Image> FrameWriter::litImages(const DenoisedFrame& denoised) const {
     undenoised = frame.indirect;
     std::ranges::transform(undenoised.values(), undenoised.values().begin(), finiteOrZero);
   }
+  // Specular light is a part of the picture if it is denoised; else it is among `Frame::nonDiffuse`.
+  const auto addSpecular = [&](Image lit, const Image& specular) {
+    for (std::size_t i = 0; !denoised.specular.empty() && i < lit.values().size(); ++i) {
+      lit.values()[i] += finiteOrZero(frame.specularAlbedo.values()[i]) * finiteOrZero(specular.values()[i]);
+    }
+    return lit;
+  };
   const Image& indirect = firstOf(denoised.indirect, undenoised);
   const Image& direct = firstOf(denoised.direct, frame.direct);
   const auto light = [&](const Image& someIndirect, const Image& someDirect) {
@@ -81,8 +88,12 @@ std::vector<Image> FrameWriter::litImages(const DenoisedFrame& denoised) const {
     for (std::size_t i = 0; i < frame.nonDiffuse.values().size(); ++i) lit.values()[i] += frame.nonDiffuse.values()[i];
     return lit;
   };
-  std::vector<Image> lit{light(frame.indirect, frame.direct), light(indirect, direct)};
-  if (frame.reference) lit.push_back(light(firstOf(reference.indirect, indirect), firstOf(reference.direct, direct)));
+  std::vector<Image> lit{addSpecular(light(frame.indirect, frame.direct), frame.specular),
+                         addSpecular(light(indirect, direct), denoised.specular)};
+  if (frame.reference) {
+    lit.push_back(addSpecular(light(firstOf(reference.indirect, indirect), firstOf(reference.direct, direct)),
+                              firstOf(reference.specular, denoised.specular)));
+  }
   return lit;
 }
 

@@ -98,8 +98,15 @@ struct GpuDenoiser::State {
   }
 
   /// Record and submit a frame.
-  /// @param lights as many as there are methods
-  void submit(const PackedFrame& packed, std::span<const LightTexels> lights);
+  /// @param lights    as many as there are methods
+  /// @param albedo    of the lobe that reflects the lights
+  /// @param roughness empty unless the light is specular
+  void submit(const PackedFrame& packed, std::span<const LightTexels> lights, const std::vector<Rgba16>& albedo,
+              const std::vector<std::uint8_t>& roughness);
+  /// The same for lights of the lobe of the frame's own light.
+  void submit(const PackedFrame& packed, std::span<const LightTexels> lights) {
+    submit(packed, lights, packed.albedo, packed.roughness);
+  }
   /// Wait for the oldest frame and read it back.
   DenoisedPicture finish();
 
@@ -129,13 +136,14 @@ std::optional<double> DenoisedPicture::milliseconds() const {
                          [](double sum, const fg::vk::PassTime& time) { return sum + time.milliseconds; });
 }
 
-void GpuDenoiser::State::submit(const PackedFrame& packed, std::span<const LightTexels> lights) {
+void GpuDenoiser::State::submit(const PackedFrame& packed, std::span<const LightTexels> lights,
+                                const std::vector<Rgba16>& lobeAlbedo, const std::vector<std::uint8_t>& lobeRoughness) {
   const Frame& frame = packed.frame;
   if (lights.size() != lighting.size()) {
     throw std::logic_error("GpuDenoiser::submit: the frame has " + std::to_string(lights.size()) +
                            " lights, and the denoiser is for " + std::to_string(lighting.size()));
   }
-  if (frame.light != layout.conventions.light) {
+  if (!layout.conventions.specular && frame.light != layout.conventions.light) {
     throw std::logic_error("GpuDenoiser::submit: other pixels of the frame have light than the layout says");
   }
   const FrameConstants constants = frameConstantsOf(frame, layout.motionScale);
@@ -148,8 +156,8 @@ void GpuDenoiser::State::submit(const PackedFrame& packed, std::span<const Light
   depth.upload(recorded, frame.depth.values());
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);
-  albedo.upload(recorded, packed.albedo);
-  if (roughness) roughness->upload(recorded, packed.roughness);
+  albedo.upload(recorded, lobeAlbedo);
+  if (roughness) roughness->upload(recorded, lobeRoughness);
   if (objectId) objectId->upload(recorded, packed.objectId);
   graph.submit(recorded);
 }
@@ -221,6 +229,10 @@ std::optional<DenoisedFrame> GpuDenoiser::finish() {
 
 void GpuDenoiser::submitLight(const PackedFrame& packed, const std::vector<Rgba16>& lighting) {
   state_->submit(packed, std::array{LightTexels(lighting)});
+}
+
+void GpuDenoiser::submitLight(const PackedFrame& packed, const PackedLight& light) {
+  state_->submit(packed, std::array{LightTexels(light.lighting)}, light.albedo, light.roughness);
 }
 
 DenoisedPicture GpuDenoiser::finishPicture() {

@@ -84,6 +84,8 @@ class GpuDenoiser {
   /// comes back: call `finishPicture`, not `finish`.
   /// @throws as `submit`
   void submitLight(const PackedFrame& packed, const std::vector<Rgba16>& lighting);
+  /// The same with the albedo and the roughness that belong to the light, too.
+  void submitLight(const PackedFrame& packed, const PackedLight& light);
   /// Wait for the oldest frame in flight, which must exist.
   /// @throws fg::vk::Error when the device fails
   DenoisedPicture finishPicture();

@@ -23,17 +23,19 @@ struct LightMethod {
 /// A frame on its way to `LightDenoisers`.
 struct PackedLights {
   PackedFrame packed;
-  std::vector<Rgba16> direct;  ///< Direct light, if it is denoised beside the indirect light.
+  std::vector<Rgba16> direct;           ///< Direct light, if it is denoised beside the indirect light.
+  std::optional<PackedLight> specular;  ///< Specular light, if it is denoised beside the others.
 };
 
-/// Denoises one or both lights of frames. Both lights share the guides, which one `GpuDenoiser` prepares once. A method
-/// without guides has a `GpuDenoiser` for each light; they share pipelines and the memory of transients. The pictures
-/// are the same. The order of calls is that of `GpuDenoiser`.
+/// Denoises lights of frames. Indirect and direct light share the guides, which one `GpuDenoiser` prepares once. A
+/// method without guides has a `GpuDenoiser` for each light, and so has specular light, whose lobe is another one; they
+/// share pipelines and the memory of transients. The pictures are the same. The order of calls is that of
+/// `GpuDenoiser`.
 class LightDenoisers {
  public:
   /// For errors and for the other parameters see `GpuDenoiser`.
-  /// @param lights  the lights to denoise: one, or the indirect and the direct light. The views and counters are those
-  ///                of the first. Specular light comes alone, and `layout` says so
+  /// @param lights  the lights to denoise, in the order of `Light`: one, or the indirect and the direct light, or all.
+  ///                The views and counters are those of the first. Where specular light comes alone, `layout` says so
   LightDenoisers(const GpuDevice& device, std::span<const LightMethod> lights, fg::Extent extent, const Layout& layout,
                  const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds);
 
@@ -53,6 +55,8 @@ class LightDenoisers {
   bool together_;  // `first_` denoises the direct light, too.
   GpuDenoiser first_;
   std::optional<GpuDenoiser> direct_;  // Where direct light comes second and is denoised by itself.
+  std::unique_ptr<Layout> specularLayout_;
+  std::optional<GpuDenoiser> specular_;  // Where specular light comes third.
 };
 
 }  // namespace walr

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> packNumbers(const Image& image) {
   return numbers;
 }
 
-std::vector<Rgba16> packSpecular(const Frame& frame) {
+std::vector<Rgba16> packSpecularLighting(const Frame& frame) {
   std::vector<Rgba16> texels = packRgba16(frame.specular);
   for (std::size_t i = 0; i < texels.size(); ++i) texels[i][3] = toHalf(frame.specularDistance.values()[i]).bits();
   return texels;
@@ -67,7 +67,7 @@ std::vector<std::uint8_t> packUnorm8(const Image& image) {
 }  // namespace
 
 std::vector<Rgba16> packLight(const Frame& frame, Light light) {
-  if (light == Light::Specular) return packSpecular(frame);
+  if (light == Light::Specular) return packSpecularLighting(frame);
   const Image& full = light == Light::Indirect ? frame.indirect : frame.direct;
   if (frame.light.everyPixel()) return packRgba16(full);
   const fg::Extent extent =
@@ -83,14 +83,23 @@ std::vector<Rgba16> packLight(const Frame& frame, Light light) {
   return packRgba16(texels);
 }
 
+PackedLight packSpecular(const Frame& frame) {
+  return {packLight(frame, Light::Specular), packRgba16(frame.specularAlbedo), packUnorm8(frame.roughness)};
+}
+
 PackedFrame packFrame(Frame frame, Light light) {
   PackedFrame packed;
-  packed.lighting = packLight(frame, light);
+  if (light == Light::Specular) {
+    PackedLight specular = packSpecular(frame);
+    packed.lighting = std::move(specular.lighting);
+    packed.albedo = std::move(specular.albedo);
+    packed.roughness = std::move(specular.roughness);
+  } else {
+    packed.lighting = packLight(frame, light);
+    packed.albedo = packRgba16(frame.albedo);
+  }
   packed.normal = packRgba16(frame.normal);
   packed.motion = packRgba16(frame.motion);
-  const bool specular = light == Light::Specular;
-  packed.albedo = packRgba16(specular ? frame.specularAlbedo : frame.albedo);
-  if (specular) packed.roughness = packUnorm8(frame.roughness);
   packed.objectId = packNumbers(frame.objectId);
   packed.frame = std::move(frame);
   return packed;

@@ -31,8 +31,18 @@ std::vector<Rgba16> packRgba16(const Image& image);
 /// The first three components of texels as an image.
 Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
 
+/// What differs between the lights of a frame.
+struct PackedLight {
+  std::vector<Rgba16> lighting;
+  std::vector<Rgba16> albedo;           ///< Of the lobe that reflects the light.
+  std::vector<std::uint8_t> roughness;  ///< As in `PackedFrame`.
+};
+
 /// @param light  the light to denoise
 PackedFrame packFrame(Frame frame, Light light = Light::Indirect);
+
+/// Specular light of a frame.
+PackedLight packSpecular(const Frame& frame);
 
 /// The texels of one light of a frame: of the pixels that have a sample. Those of samples outside the image are 0.
 /// Alpha is the distance of specular light.

@@ -51,7 +51,7 @@ struct DenoiseReport {
   std::string driver;
   bool softwareDevice = false;
   std::string layout;
-  std::string light = "indirect";  ///< Which light is denoised: indirect, direct, both of them, or specular.
+  std::string light = "indirect";  ///< Which light is denoised: indirect, direct, both of them, specular, or all.
   fg::Extent extent;               ///< Of the frames.
   std::vector<FrameReport> frames = {};
   SettingsText directSettings = {};  ///< Of the direct light, if both are denoised.

@@ -10,8 +10,7 @@ HostFrame packHostFrame(Frame frame) {
   if (!frame.light.everyPixel()) packed.noisyLight = packRgba16(frame.indirect);
   packed.direct = packRgba16(frame.direct);
   packed.emission = packRgba16(frame.emission);
-  packed.specular = packRgba16(frame.specular);
-  packed.specularAlbedo = packRgba16(frame.specularAlbedo);
+  packed.specular = packSpecular(frame);
   if (frame.reference) {
     packed.referenceDirect = packRgba16(frame.reference->direct);
     packed.referenceIndirect = packRgba16(frame.reference->indirect);

@@ -21,8 +21,7 @@ struct HostFrame {
   std::vector<Rgba16> noisyLight;  ///< Sparse light for all pixels, 0 without a sample; empty if light is not sparse.
   std::vector<Rgba16> direct;
   std::vector<Rgba16> emission;
-  std::vector<Rgba16> specular;  ///< It and its albedo are empty without specular light.
-  std::vector<Rgba16> specularAlbedo;
+  PackedLight specular;                 ///< Empty without specular light.
   std::vector<Rgba16> referenceDirect;  ///< For the split view; empty otherwise.
   std::vector<Rgba16> referenceIndirect;
   std::vector<Rgba16> referenceSpecular;

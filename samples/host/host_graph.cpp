@@ -71,6 +71,7 @@ void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, con
   if (specular) {
     picture(host.specular.emplace(), "specular light", kColourFormat);
     picture(host.specularAlbedo.emplace(), "specular albedo", kColourFormat);
+    picture(host.roughness.emplace(), "roughness", VK_FORMAT_R8_UNORM);
     if (view.needsReference()) picture(host.referenceSpecular.emplace(), "reference specular light", kColourFormat);
   }
   if (view.needsReference()) {
@@ -103,7 +104,7 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
       .depth = graph.texture("depth", {.format = kDepthFormat, .extent = extent}),
       .objectId = graph.texture("object id", {.format = VK_FORMAT_R32_UINT, .extent = extent})};
   if (scene.specular()) {
-    traced.specular = color("specular light");
+    traced.specular = color("traced specular light");
     traced.specularAlbedo = color("specular albedo");
   }
   host.trace = gpu_render::declareTraceInputs(graph, scene);
@@ -117,7 +118,9 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
   host.depth.texture = traced.depth;
   host.objectId.texture = traced.objectId;
   if (scene.specular()) {
-    host.specular.emplace().texture = traced.specular;
+    const SpecularInputs inputs = addSpecularInputs(graph, traced.specular, traced.specularAlbedo, traced.normal);
+    host.specular.emplace().texture = inputs.lighting;
+    host.roughness.emplace().texture = inputs.roughness;
     host.specularAlbedo.emplace().texture = traced.specularAlbedo;
   }
   const fg::BufferDesc row{std::uint64_t{extent.height} * sizeof(std::uint32_t)};
@@ -125,7 +128,7 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
   graph.exported(*host.rays, fg::vk::kReadable);
 }
 
-/// What composites take beside the indirect light.
+/// What composites take beside the indirect light, with specular light as it was traced.
 Shading shadingOf(const HostGraph& host) {
   Shading shading{host.direct.texture, host.albedo.texture, host.emission.texture};
   if (host.specular) {
@@ -133,6 +136,27 @@ Shading shadingOf(const HostGraph& host) {
     shading.specularAlbedo = host.specularAlbedo->texture;
   }
   return shading;
+}
+
+/// Denoise what a method takes of the frame, and light the image with it.
+/// @param outputs  what the denoised light, which replaces the first, and the image are written to
+/// @returns the image
+fg::Texture addLit(HostGraph& host, Denoiser& method, DenoiserInputs inputs, const std::string& prefix,
+                   fg::Texture& denoised, fg::Texture lit) {
+  fg::Graph& graph = host.graph;
+  Inspection nothing;
+  Shading shading = shadingOf(host);
+  denoised = method.add(StageGraph(graph, nothing, {.prefix = prefix}), inputs, denoised);
+  if (host.specular && method.takesSpecularLight()) {
+    const std::string specular = prefix + std::string(kSpecularPrefix);
+    inputs.lighting = host.specular->texture;
+    inputs.albedo = host.specularAlbedo->texture;
+    inputs.roughness = host.roughness->texture;
+    inputs.conventions.specular = true;
+    const fg::Texture output = graph.texture(specular + "denoised", graph.textureDesc(denoised));
+    shading.specular = method.add(StageGraph(graph, nothing, {.prefix = specular}), inputs, output);
+  }
+  return addComposite(graph, prefix + "composite", denoised, shading, lit);
 }
 
 /// The lit image of another light source than the denoiser. The composite of the denoised light exists in any case.
@@ -164,10 +188,8 @@ fg::Texture litByCompared(HostGraph& host, Denoiser& compared, DenoiserInputs in
   const auto texture = [&](const char* name) {
     return graph.texture(std::string(kComparedPrefix) + name, graph.textureDesc(host.composite));
   };
-  Inspection nothing;
-  const fg::Texture denoised =
-      compared.add(StageGraph(graph, nothing, {.prefix = kComparedPrefix}), inputs, texture("denoised"));
-  return addComposite(graph, std::string(kComparedPrefix) + "composite", denoised, shadingOf(host), texture("lit"));
+  fg::Texture denoised = texture("denoised");
+  return addLit(host, compared, inputs, std::string(kComparedPrefix), denoised, texture("lit"));
 }
 
 void addView(HostGraph& host, const HostView& view, const DenoiserInputs& inputs) {
@@ -223,9 +245,9 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
     host.lint = addLintInputs(graph, inputs, counts);
     graph.exported(*host.lint, fg::vk::kReadable);
   }
-  host.denoised = method.add(graph, inputs, declareTarget(graph, "denoised", colour, targets.denoised));
-  host.composite = addComposite(graph, "composite", host.denoised, shadingOf(host),
-                                declareTarget(graph, "lit", colour, targets.composite));
+  host.denoised = declareTarget(graph, "denoised", colour, targets.denoised);
+  host.composite =
+      addLit(host, method, inputs, "", host.denoised, declareTarget(graph, "lit", colour, targets.composite));
   host.display = declareTarget(
       graph, "display", {.format = kDisplayFormat, .extent = targets.displayExtent.value_or(extent)}, targets.display);
   addView(host, view, inputs);

@@ -39,6 +39,8 @@ struct HostView {
 
 /// What the names of the passes, textures and histories of `HostView::compared` begin with.
 inline constexpr std::string_view kComparedPrefix = "right: ";
+/// The same of specular light that is denoised, behind the other prefix, if any.
+inline constexpr std::string_view kSpecularPrefix = "specular: ";
 
 /// A host's whole frame as one graph: uploads or the path tracer, the method's passes, composite, tone map.
 struct HostGraph {
@@ -56,15 +58,17 @@ struct HostGraph {
   UploadedPicture objectId;
   UploadedPicture direct;
   UploadedPicture emission;
-  std::optional<UploadedPicture> specular;        ///< Light of the specular lobe, divided by `specularAlbedo`.
-  std::optional<UploadedPicture> specularAlbedo;  ///< Absent without `specular`.
+  /// Light of the specular lobe, divided by `specularAlbedo`; alpha: see `DenoiserInputs::roughness`.
+  std::optional<UploadedPicture> specular;
+  std::optional<UploadedPicture> specularAlbedo;  ///< It and `roughness` are absent without `specular`.
+  std::optional<UploadedPicture> roughness;
   std::optional<UploadedPicture> referenceIndirect;
   std::optional<UploadedPicture> referenceDirect;
   std::optional<UploadedPicture> referenceSpecular;
   std::optional<fg::Buffer> lint;  ///< With `HostView::lint`: what `InputLinter` reads, as `fg::vk::kReadable`.
   fg::Buffer frameConstants;
   fg::Buffer viewConstants;
-  fg::Texture denoised;   ///< RGBA16F: the output of the method.
+  fg::Texture denoised;   ///< RGBA16F: the output of the method. Specular light is denoised if the method takes it.
   fg::Texture composite;  ///< RGBA16F: the lit image with the denoised light.
   fg::Texture display;    ///< RGBA8: the displayed image.
 };
@@ -90,7 +94,8 @@ struct HostTargets {
 ///         empty
 /// @param scene    what the device traces, must outlive the graph; null: the processor traces, and its pictures are
 ///         uploaded
-/// @param specular  whether frames hold specular light, as `scene` does
+/// @param specular  whether frames hold specular light, as `scene` does. It is shown as it was traced if the method
+///         does not take it
 /// @throws std::invalid_argument naming a setting of the method that is out of range
 /// @throws also naming a method or setting that does not take sparse light
 /// @throws UsageError if the device traces and the view needs a reference; or if the graph lacks the texture to view;

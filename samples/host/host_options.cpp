@@ -106,7 +106,7 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
       ->type_name("")
       ->default_str("denoised");
   program.add_flag("--specular", tracer.specular,
-                   "Materials reflect with the specular lobe of glTF, too; its light is shown as it was traced");
+                   "Materials reflect with the specular lobe of glTF, too; methods that take its light denoise it");
   program
       .add_flag_callback(
           "--replace-mirrors", [&tracer] { tracer.gbuffer = render::GBufferMode::BehindMirrors; },

@@ -72,6 +72,15 @@ fg::Buffer addRayCount(fg::Graph& graph, fg::Texture lighting, fg::Buffer rays) 
   return pass.store("Rays", rays);
 }
 
+SpecularInputs addSpecularInputs(fg::Graph& graph, fg::Texture traced, fg::Texture specularAlbedo, fg::Texture normal) {
+  const fg::TextureDesc desc = graph.textureDesc(traced);
+  const fg::Texture lighting = graph.texture("specular light", desc);
+  const fg::Texture roughness = graph.texture("roughness", {.format = VK_FORMAT_R8_UNORM, .extent = desc.extent});
+  fg::PassBuilder pass = graph.compute("specular inputs", shaders::specularInputs);
+  pass.sample("traced", traced).sample("specularAlbedo", specularAlbedo).sample("normal", normal).dispatch(desc.extent);
+  return {pass.store("outSpecular", lighting), pass.store("outRoughness", roughness)};
+}
+
 fg::Texture addComposite(fg::Graph& graph, const std::string& name, fg::Texture indirect, const Shading& shading,
                          fg::Texture output) {
   fg::PassBuilder pass = graph.compute(name, shading.specular ? shaders::compositeSpecular : shaders::composite);

@@ -28,6 +28,13 @@ void addUploads(fg::Graph& graph, const fg::vk::DeviceContext& device, const std
 /// exact up to 2048.
 fg::Buffer addRayCount(fg::Graph& graph, fg::Texture lighting, fg::Buffer rays);
 
+/// Specular light that was traced on the device (`gpu_render::TracedTextures`), as denoisers take it.
+struct SpecularInputs {
+  fg::Texture lighting;   ///< RGBA16F; alpha: distance of what is reflected, 0 without a sample.
+  fg::Texture roughness;  ///< R8_UNORM.
+};
+SpecularInputs addSpecularInputs(fg::Graph& graph, fg::Texture traced, fg::Texture specularAlbedo, fg::Texture normal);
+
 /// The inputs of a composite other than the indirect light; all RGBA16F.
 struct Shading {
   fg::Texture direct;

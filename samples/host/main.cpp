@@ -174,6 +174,9 @@ void run(HostOptions& options) {
   if (const std::optional<std::string> preset = presetInUse(options.method.name, *method)) {
     std::cout << ", preset " << *preset;
   }
+  if (tracer.specular() && !method->takesSpecularLight()) {
+    std::cout << "; it takes no specular light, which is shown as it was traced";
+  }
   std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << "\ntracer: " << decision.text << because
             << std::endl;
   if (!window) {

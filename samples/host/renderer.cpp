@@ -94,8 +94,9 @@ void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostF
   upload(graph.direct, std::span(frame.direct));
   upload(graph.emission, std::span(frame.emission));
   if (graph.specular) {
-    upload(*graph.specular, std::span(frame.specular));
-    upload(*graph.specularAlbedo, std::span(frame.specularAlbedo));
+    upload(*graph.specular, std::span(frame.specular.lighting));
+    upload(*graph.specularAlbedo, std::span(frame.specular.albedo));
+    upload(*graph.roughness, std::span(frame.specular.roughness));
   }
   if (graph.referenceIndirect) {
     upload(*graph.referenceIndirect, std::span(frame.referenceIndirect));

@@ -314,13 +314,20 @@ void ExrReader::read(std::span<const Target> targets, const PixelRect& place) {
       for (std::size_t i = 0; i < wanted.size(); ++i) {
         Image& image = inPlace ? *wanted[i].image : copy;
         const int component = inPlace ? wanted[i].component : static_cast<int>(i);
+        if (buffer.findSlice(wanted[i].channel) != nullptr) continue;  // Below, it is a copy of the first one.
         buffer.insert(wanted[i].channel,
                       makeSlice(Imf::FLOAT, image.values().data(), component, image.components(), window));
       }
       part.setFrameBuffer(buffer);
       part.readPixels(window.corner.y, window.end().y - 1);
-      for (std::size_t i = 0; !inPlace && i < wanted.size(); ++i) {
-        copyCommon(copy, static_cast<int>(i), window, *wanted[i].image, wanted[i].component, place);
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const Target& target = wanted[i];
+        const auto first = std::ranges::find(wanted, target.channel, &Target::channel);
+        if (!inPlace) {
+          copyCommon(copy, static_cast<int>(first - wanted.begin()), window, *target.image, target.component, place);
+        } else if (&*first != &target) {
+          copyCommon(*first->image, first->component, window, *target.image, target.component, place);
+        }
       }
     }
   } catch (const std::exception& error) {

@@ -45,8 +45,8 @@ void requireKnown(const Json& object, std::initializer_list<std::string_view> na
   }
 }
 
-/// Read the channels of a plane, which is left out where the map lacks it. Motion may lack its third channel.
-void readPlane(const Json& channels, Plane plane, ChannelMap& map, std::vector<Plane>& planes) {
+/// The plane with the channels that the map names, if it names some. Motion may lack its third channel.
+Plane readPlane(const Json& channels, Plane plane, ChannelMap& map) {
   const auto names = channels.find(std::string(plane.name));
   const std::size_t most = plane.components.size();
   const std::size_t fewest = plane.role == Role::Motion ? 2 : most;
@@ -62,7 +62,7 @@ void readPlane(const Json& channels, Plane plane, ChannelMap& map, std::vector<P
       map.channels[std::string(plane.name) + "." + plane.components[c]] = (*names)[c].get<std::string>();
     }
   }
-  planes.push_back(plane);
+  return plane;
 }
 
 void read(const Json& document, ChannelMap& map) {
@@ -71,14 +71,22 @@ void read(const Json& document, ChannelMap& map) {
   }
   requireKnown(document, {"channels", "normals", "depth", "light", "motionScale", "cameras"}, "it");
   const Json& channels = document["channels"];
-  requireKnown(channels, {"Indirect", "Direct", "Albedo", "Normal", "Depth", "Motion", "Emission", "ObjectId"},
+  requireKnown(channels,
+               {"Indirect", "Direct", "Albedo", "Normal", "Depth", "Motion", "Emission", "ObjectId", "Specular",
+                "SpecularAlbedo", "SpecularDistance", "Roughness"},
                "\"channels\"");
   map.layout = projectLayout();
   map.layout.name = "channel map";
-  for (const Plane& plane : projectLayout().planes) readPlane(channels, plane, map, map.planes);
-  std::vector<Plane> numbers;
-  readPlane(channels, map.layout.objectId, map, numbers);
+  for (const Plane& plane : map.layout.planes) map.planes.push_back(readPlane(channels, plane, map));
   map.layout.planes = map.planes;
+  map.layout.objectId = readPlane(channels, map.layout.objectId, map);
+  for (const Plane& plane : map.layout.specular) {
+    if (channels.contains(plane.name)) map.specular.push_back(readPlane(channels, plane, map));
+  }
+  if (!map.specular.empty() && !(channels.contains("Specular") && channels.contains("SpecularAlbedo"))) {
+    throw InputError("\"channels\" must have both \"Specular\" and \"SpecularAlbedo\", or nothing of specular light");
+  }
+  map.layout.specular = map.specular;
   if (!map.channels.contains("Motion.Z")) {
     map.layout.conventions.motionDepth = InputConventions::MotionDepth::StaticScene;
   }
@@ -89,6 +97,10 @@ void read(const Json& document, ChannelMap& map) {
   map.layout.motionScale = readScale(document);
   map.depthIsDistance = isSecond(document, "depth", {"along the axis", "distance"});
   map.lightTimesAlbedo = isSecond(document, "light", {"without albedo", "times albedo"});
+  if (!map.specular.empty()) {
+    map.added = {{&Frame::nonDiffuse, "Specular", map.lightTimesAlbedo ? std::string_view() : "SpecularAlbedo", false}};
+  }
+  map.layout.added = map.added;
 }
 
 /// The depth along the axis of points at a distance from the camera.
@@ -120,6 +132,7 @@ void convertByMap(const ChannelMap& map, Frame& frame) {
   if (map.depthIsDistance) projectDistance(frame.depth, frame.camera);
   if (!map.lightTimesAlbedo) return;
   for (Image* const light : {&frame.indirect, &frame.direct}) divideByAlbedo(*light, frame.albedo);
+  divideByAlbedo(frame.specular, frame.specularAlbedo);
 }
 
 void readChannelMap(const std::filesystem::path& path, ChannelMap& map) {

@@ -13,7 +13,9 @@ namespace walr {
 struct ChannelMap {
   std::map<std::string, std::string> channels;  ///< Names in the files, by walr's names, such as "Albedo.R".
   std::vector<Plane> planes;
-  Layout layout;                  ///< Refers to `planes`.
+  std::vector<Plane> specular;
+  std::vector<AddedLight> added;
+  Layout layout;                  ///< Refers to the three above.
   bool depthIsDistance = false;   ///< Depth is the distance from the camera instead of the depth along its axis.
   bool lightTimesAlbedo = false;  ///< The lights are multiplied by the albedo.
 
@@ -29,7 +31,7 @@ void readChannelMap(const std::filesystem::path& path, ChannelMap& map);
 /// Convert what was read by a map: depth along the axis, and lights without albedo.
 void convertByMap(const ChannelMap& map, Frame& frame);
 
-/// Divide a light by the albedo; 0 where there is none.
+/// Divide a light by its albedo; 0 where there is none. Both may be empty.
 void divideByAlbedo(Image& light, const Image& albedo);
 
 }  // namespace walr

@@ -152,6 +152,16 @@ void addLight(const AddedLight& light, const std::map<std::string_view, Image>& 
   }
 }
 
+/// The lights that a composite adds as they are.
+std::vector<AddedLight> addedBeside(const RecognizedLayout& layout, SpecularWish specular) {
+  std::vector<AddedLight> added;
+  std::ranges::copy_if(layout.added, std::back_inserter(added), [&](const AddedLight& light) {
+    return specular != SpecularWish::Denoised ||
+           std::ranges::find(layout.specular, light.name, &Plane::name) == layout.specular.end();
+  });
+  return added;
+}
+
 /// Add a part of a sum, which may be empty.
 void addPart(const Image& part, Image& sum) {
   if (sum.empty()) {
@@ -363,6 +373,8 @@ RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const Chann
   RecognizedLayout mapped{&map->layout, {}};
   mapped.map = std::move(map);
   mapped.objectIds = hasPlane(file, mapped, mapped.layout->objectId);
+  mapped.specular = mapped.map->specular;
+  mapped.added = mapped.map->added;
   return mapped;
 }
 
@@ -370,13 +382,16 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
   const auto holds = [&](Role role) {
     return std::ranges::find(layout.specular, role, &Plane::role) != layout.specular.end();
   };
-  if (wanted.onlySpecular() && !(holds(Role::Specular) && holds(Role::SpecularDistance) && holds(Role::Roughness))) {
+  if (wanted.specular == SpecularWish::Denoised &&
+      !(holds(Role::Specular) && holds(Role::SpecularDistance) && holds(Role::Roughness))) {
     throw InputError(
         file.path().string() +
         ": no specular light with distances and roughness (Specular.R, SpecularDistance.Z, Roughness.Y and "
         "others of walr's own layout; layout: " +
         std::string(layout.layout->name) +
-        "). Render with 'walr render --specular', or denoise diffuse light. Channels found: " + join(file.channels()));
+        "). Render with 'walr render --specular', name them in a map of channels, or denoise diffuse light. Channels "
+        "found: " +
+        join(file.channels()));
   }
   std::vector<Plane> planes;
   std::ranges::copy_if(layout.layout->planes, std::back_inserter(planes),
@@ -384,7 +399,9 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
   if (layout.objectIds) {
     planes.push_back(layout.layout->objectId);
   }
-  if (wanted.specular) planes.insert(planes.end(), layout.specular.begin(), layout.specular.end());
+  if (wanted.specular != SpecularWish::Nothing) {
+    planes.insert(planes.end(), layout.specular.begin(), layout.specular.end());
+  }
   if (wanted.rest) {
     for (const AddedLight& light : layout.added) {
       planes.push_back(colours(light.name));
@@ -430,20 +447,17 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish&
     if (plane.name.empty() || parts.contains(plane.name)) return;
     addTargets(targets, layout, plane, parts[plane.name], place, valueOutside(plane.role));
   };
-  if (wanted.rest) {
-    for (const AddedLight& light : layout.added) {
-      for (const std::string_view name : {light.name, light.colour}) readPart(colours(name));
-    }
+  const std::vector<AddedLight> added = wanted.rest ? addedBeside(layout, wanted.specular) : std::vector<AddedLight>{};
+  for (const AddedLight& light : added) {
+    for (const std::string_view name : {light.name, light.colour}) readPart(colours(name));
   }
-  if (wanted.specular) std::ranges::for_each(layout.specular, readPart);
+  if (wanted.specular != SpecularWish::Nothing) std::ranges::for_each(layout.specular, readPart);
   file.read(targets, place);
   findNonFinite(file.path(), targets, false, frame.nonFinite);
-  if (wanted.specular) {
+  if (wanted.specular != SpecularWish::Nothing) {
     for (const Plane& plane : layout.specular) addPart(parts.at(plane.name), imageOf(frame, plane.role));
   }
-  if (wanted.rest) {
-    for (const AddedLight& light : layout.added) addLight(light, parts, frame.*light.image);
-  }
+  for (const AddedLight& light : added) addLight(light, parts, frame.*light.image);
 }
 
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted,
@@ -461,15 +475,15 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, const L
   if (wanted.direct && hasPlane(file, layout, direct)) addPlane(direct, reference.direct);
   const std::size_t checked = targets.size();
   Image albedo;
-  const bool divide = layout.map != nullptr && layout.map->lightTimesAlbedo && !targets.empty();
-  if (divide) addPlane(planeOf(*layout.layout, Role::Albedo), albedo);
+  const bool divides = layout.map != nullptr && layout.map->lightTimesAlbedo;
+  if (divides && !targets.empty()) addPlane(planeOf(*layout.layout, Role::Albedo), albedo);
   Plane half = indirect;
   const std::string halfName = std::string(half.name) + "A";
   half.name = halfName;
   if (readsIndirect && hasPlane(file, layout, half)) addPlane(half, reference.indirectHalf);
   const std::array sums{&reference.specular, &reference.specularHalf};
   std::array<std::vector<Image>, sums.size()> parts;  // Of each, if the file has all of them.
-  for (std::size_t i = 0; wanted.specular && i < sums.size(); ++i) {
+  for (std::size_t i = 0; wanted.specular != SpecularWish::Nothing && i < sums.size(); ++i) {
     std::vector<std::string> names;
     for (const Plane& plane : layout.specular) {
       if (plane.role == Role::Specular) names.push_back(std::string(plane.name) + (i == 0 ? "" : "A"));
@@ -478,15 +492,21 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, const L
     parts.at(i).resize(names.size());
     for (std::size_t p = 0; p < names.size(); ++p) addPlane(colours(names[p]), parts.at(i)[p]);
   }
+  Image specularAlbedo;
+  const auto specularAlbedoPlane = std::ranges::find(layout.specular, Role::SpecularAlbedo, &Plane::role);
+  if (divides && !parts.front().empty() && specularAlbedoPlane != layout.specular.end()) {
+    addPlane(*specularAlbedoPlane, specularAlbedo);
+  }
   if (!targets.empty()) file.read(targets, place);
   for (std::size_t i = 0; i < sums.size(); ++i) {
     for (const Image& part : parts.at(i)) addPart(part, *sums.at(i));
   }
   findNonFinite(file.path(), std::span(targets).first(checked), true, nonFinite);
-  if (divide) {
+  if (divides) {
     for (Image* const light : {&reference.indirect, &reference.direct, &reference.indirectHalf}) {
       divideByAlbedo(*light, albedo);
     }
+    for (Image* const light : {&reference.specular, &reference.specularHalf}) divideByAlbedo(*light, specularAlbedo);
   }
   return reference;
 }
@@ -499,7 +519,8 @@ std::string describeUndenoised(const RecognizedLayout& layout, std::span<const L
     names.push_back(std::string(planeOf(*layout.layout, roleOf(light)).name) + " x " + albedo);
   }
   names.emplace_back(planeOf(*layout.layout, Role::Emission).name);
-  for (const AddedLight& light : layout.added) {
+  const bool specular = std::ranges::find(denoised, Light::Specular) != denoised.end();
+  for (const AddedLight& light : addedBeside(layout, specular ? SpecularWish::Denoised : SpecularWish::Nothing)) {
     names.push_back(std::string(light.name) + (light.colour.empty() ? "" : " x " + std::string(light.colour)));
   }
   return join(names);

@@ -46,15 +46,22 @@ struct AddedLight {
   bool usual = true;             ///< Users are told if the files do not hold it.
 };
 
+/// What is wanted of specular light and of what belongs to it.
+enum class SpecularWish {
+  Nothing,
+  IfHeld,    ///< Read it if the files hold it, as linters do.
+  Denoised,  ///< The files must hold it. A composite gets it from the denoiser, and does not add it as it is.
+};
+
 /// The light to read beside the guides.
 struct LightWish {
   bool indirect = true;
   bool direct = false;
-  bool rest = false;      ///< Emission, and the lights that a composite adds.
-  bool specular = false;  ///< Specular light and what belongs to it, if the files hold it.
+  bool rest = false;  ///< Emission, and the lights that a composite adds.
+  SpecularWish specular = SpecularWish::Nothing;
 
-  /// Whether specular light is to be denoised: linters read it beside diffuse light.
-  [[nodiscard]] bool onlySpecular() const { return specular && !indirect && !direct; }
+  /// Whether specular light is denoised, and nothing else.
+  [[nodiscard]] bool onlySpecular() const { return specular == SpecularWish::Denoised && !indirect && !direct; }
 };
 /// Everything that a composite consists of.
 inline constexpr LightWish kWholePicture{.indirect = true, .direct = true, .rest = true};

@@ -239,7 +239,8 @@ void Sequence::readLight(const ExrReader& file, Entry& entry) {
                      " differs from that of " + entries_.front().file.filename().string() +
                      ". All frames must have the same pixels per sample of light.");
   }
-  if (options_.light.rest && !layout_.specular.empty() && !light.pattern.everyPixel()) {
+  if (options_.light.rest && options_.light.specular != SpecularWish::Denoised && !layout_.specular.empty() &&
+      !light.pattern.everyPixel()) {
     throw InputError(file.path().string() + ": specular light has samples at some pixels only (header attribute " +
                      kLightGroupAttribute +
                      "), so a composite would have holes. Leave out --composite, or render without sparse light.");

@@ -125,7 +125,7 @@ TEST_F(GpuHost, ShowsWhatTheTracerOnTheProcessorShows) {
     for (const GpuDevice* const device :
          {static_cast<const GpuDevice*>(nullptr), static_cast<const GpuDevice*>(&gpu)}) {
       Tracer tracer(options, device);
-      const std::unique_ptr<Denoiser> method = makeDenoiser("walr");
+      const std::unique_ptr<Denoiser> method = makeDenoiser(options.specular ? "accumulate" : "walr");
       Renderer renderer(gpu, *method, kExtent,
                         {.readComposite = true, .scene = tracer.gpuScene(), .specular = options.specular});
       Image last;

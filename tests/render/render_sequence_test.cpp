@@ -144,7 +144,7 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
   options.referenceSamples = 2;
   render(options);
   SequenceOptions reading;
-  reading.light.specular = true;
+  reading.light.specular = SpecularWish::IfHeld;
   const Sequence sequence(folder.path(), reading);
   const Frame frame = sequence.read(0);
   EXPECT_FALSE(frame.reference->specular.empty());

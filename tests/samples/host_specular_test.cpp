@@ -9,6 +9,7 @@
 #include "passes/methods/denoiser.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/frame_output.h"
+#include "samples/denoise/gpu_denoiser.h"
 #include "samples/host/headless.h"
 #include "samples/host/renderer.h"
 #include "samples/host/tracer.h"
@@ -46,7 +47,7 @@ TEST(HostSpecular, TracesAsWalrRenderDoes) {
   render::renderSequence(options, {});
   SequenceOptions reading;
   reading.light = kWholePicture;
-  reading.light.specular = true;
+  reading.light.specular = SpecularWish::IfHeld;
   const Sequence sequence(folder.path(), reading);
   Tracer tracer(tracerOptions);
   for (int number = 0; number <= options.lastFrame; ++number) {
@@ -95,6 +96,34 @@ TEST(HostSpecular, LightIsInEveryLitImage) {
       // The error of rounding to a byte, and half a step for an imprecise power function of the device.
       ASSERT_NEAR(static_cast<float>(byte), 255.0F * encodeSrgb(toneMap(expected.values()[i])), 1.0F)
           << "view " << static_cast<int>(kind) << ", value " << i;
+    }
+  }
+  gpu.refuseMessages();
+}
+
+TEST(HostSpecular, LightIsDenoisedByMethodsThatTakeIt) {
+  GpuDevice gpu{{.device = "", .validation = true}};
+  const std::unique_ptr<Denoiser> accumulate = makeDenoiser("accumulate");
+  ASSERT_TRUE(accumulate->takesSpecularLight());
+  Layout specularLayout = projectLayout();
+  specularLayout.conventions.specular = true;
+  GpuDenoiser diffuse(gpu, *accumulate, kExtent, projectLayout());
+  GpuDenoiser specular(gpu, *accumulate, kExtent, specularLayout);
+  Renderer renderer(gpu, *accumulate, kExtent, {.readComposite = true, .specular = true});
+  Tracer tracer(specularTracing());
+  for (int number = 0; number < 3; ++number) {
+    Frame frame = tracer.trace({.number = number, .animationFrame = double(number)});
+    renderer.submit(packHostFrame(frame));
+    frame.objectId = Image();  // The host's graph takes object numbers, which change nothing at these settings.
+    const Image shown = renderer.finish().value().composite;
+    const Image indirect = diffuse.run(packFrame(frame)).lights.front();
+    const Image reflected = specular.run(packFrame(frame, Light::Specular)).lights.front();
+    const Image expected = litWithSpecular(indirect, frame.direct, reflected, frame);
+    EXPECT_EQ(std::ranges::equal(reflected.values(), inHalves(frame.specular).values()), number == 0);
+    for (std::size_t i = 0; i < expected.values().size(); ++i) {
+      // The picture is rounded to halves, the smallest of which is 2^-24.
+      ASSERT_NEAR(shown.values()[i], expected.values()[i], 0x1p-24F + 0x1p-10F * expected.values()[i])
+          << number << ", value " << i;
     }
   }
   gpu.refuseMessages();

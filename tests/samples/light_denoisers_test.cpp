@@ -125,6 +125,37 @@ INSTANTIATE_TEST_SUITE_P(Methods, LightDenoisersTest,
                                          Choice{"flr"}, Choice{"flnr"}, Choice{"joint_bilateral"}, Choice{"accumulate"},
                                          Choice{"none"}));
 
+TEST(LightDenoisers, AllLightsAreThoseOfDenoisersOfTheirOwn) {
+  GpuDevice gpu({.device = {}, .validation = true});
+  Layout specularLayout = projectLayout();
+  specularLayout.conventions.specular = true;
+  const auto run = [&](std::initializer_list<Light> lights, const Layout& layout) {
+    std::vector<LightMethod> methods;
+    for (const Light light : lights) methods.push_back(lightMethod({"accumulate"}, light));
+    LightDenoisers denoiser(gpu, methods, kExtent, layout, {}, 1, true);
+    std::optional<DenoisedFrame> last;
+    for (Frame& frame : frames()) {
+      frame.specular = Image(kWidth, kHeight, 3);
+      fillWithNoise(frame.specular, 100U + static_cast<std::uint32_t>(frame.number));
+      frame.specularAlbedo = Image(kWidth, kHeight, 3);
+      std::ranges::fill(frame.specularAlbedo.values(), 0.5F);
+      frame.specularDistance = frame.roughness = Image(kWidth, kHeight, 1);
+      std::ranges::fill(frame.specularDistance.values(), 2.0F);
+      std::ranges::fill(frame.roughness.values(), 0.25F);
+      denoiser.submit(denoiser.pack(std::move(frame)));
+      last = denoiser.finish();
+    }
+    return *last;
+  };
+  const DenoisedFrame all = run({Light::Indirect, Light::Direct, Light::Specular}, projectLayout());
+  const DenoisedFrame specular = run({Light::Specular}, specularLayout);
+  EXPECT_TRUE(std::ranges::equal(all.indirect.values(), run({Light::Indirect}, projectLayout()).indirect.values()));
+  EXPECT_TRUE(std::ranges::equal(all.direct.values(), run({Light::Direct}, projectLayout()).direct.values()));
+  EXPECT_TRUE(std::ranges::equal(all.specular.values(), specular.specular.values()));
+  EXPECT_FALSE(std::ranges::equal(all.specular.values(), specular.frame.specular.values()));  // It has a history.
+  EXPECT_NO_THROW(gpu.refuseMessages());
+}
+
 // One light has another test of its history, so that it finds the taps by itself.
 TEST(LightDenoisers, LightsMayTestTheirHistoryInOtherWays) {
   GpuDevice gpu({.device = {}, .validation = true});

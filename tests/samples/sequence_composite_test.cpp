@@ -115,7 +115,7 @@ TEST_F(CompositeSequence, SpecularLightMustBeInAllFramesOrInNone) {
   writeFrame(directory.path(), frame);
   writeFrame(directory.path(), test::projectFrame(1, 6, 4));
   SequenceOptions options;
-  options.light.specular = true;
+  options.light.specular = SpecularWish::IfHeld;
   expectRefused({"noisy_0001.exr", "Specular.R", "SpecularDistance.Z", "Roughness.Y", "SpecularAlbedo.B"}, options);
 }
 
@@ -126,7 +126,7 @@ TEST_F(CompositeSequence, SparseSpecularLightHasNoComposite) {
   frame.light = {.columns = 2};
   writeFrame(directory.path(), frame);
   SequenceOptions options;
-  options.light.specular = true;
+  options.light.specular = SpecularWish::IfHeld;
   EXPECT_FALSE(open(options).read(0).specular.empty());
   options.light.rest = true;
   expectRefused({"noisy_0000.exr", "specular light", "--composite"}, options);

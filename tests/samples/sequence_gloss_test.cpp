@@ -28,7 +28,7 @@ class GlossSequence : public test::SequenceFixture {
  protected:
   GlossSequence() {
     files.write(0, 0);
-    options.light.specular = true;
+    options.light.specular = SpecularWish::IfHeld;
   }
 
   SequenceOptions options;

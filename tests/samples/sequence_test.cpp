@@ -117,7 +117,7 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
 
   SequenceOptions options;
   options.light = kWholePicture;
-  options.light.specular = true;
+  options.light.specular = SpecularWish::IfHeld;
   const Sequence sequence = open(options);
   EXPECT_EQ(sequence.layout().layout, &projectLayout());
   const Frame read = sequence.read(0);
@@ -287,7 +287,7 @@ TEST_F(SequenceTest, ReadsTheNamesOfBlender5) {
   files.writeReference(0, rename);
   SequenceOptions options;
   options.light = kWholePicture;
-  options.light.specular = true;
+  options.light.specular = SpecularWish::IfHeld;
   const Sequence sequence = open(options);
   EXPECT_EQ(sequence.layout().layout, &cyclesLayout5());
   EXPECT_EQ(sequence.layout().plane(Light::Direct), "ViewLayer.Diffuse Direct");

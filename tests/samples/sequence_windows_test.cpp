@@ -11,6 +11,7 @@
 
 #include "samples/errors.h"
 #include "samples/image/exr.h"
+#include "samples/image/half.h"
 #include "samples/sequence/cameras.h"
 #include "samples/sequence/sequence.h"
 #include "tests/error_text.h"
@@ -241,6 +242,42 @@ TEST_F(SequenceWindows, AMapSaysWhichChannelsHoldWhat) {
   EXPECT_NEAR(frame.depth.at(3, 0, 0), valueAt(3, 0, 0) / 1.25F, 1e-6F);
 }
 
+// Lights times albedo are divided by their own albedos; a composite adds specular light as the file has it.
+TEST_F(SequenceWindows, AMapFindsSpecularLight) {
+  files.writeCameras(0, 0);
+  const std::string named = R"("Specular": ["s.R", "s.G", "s.B"], "SpecularAlbedo": ["c.R", "c.G", "c.B"],
+    "SpecularDistance": ["d.Z"], "Roughness": ["r.Y"], )";
+  std::string json = kMap;
+  json.insert(json.find("\"Indirect\""), named);
+  SequenceOptions options;
+  options.channelMap = writeMap(json);
+  std::vector<std::string> channels = mappedChannels();
+  const int first = static_cast<int>(channels.size());
+  for (const char* const name : {"s.R", "s.G", "s.B", "c.R", "c.G", "c.B", "d.Z", "r.Y"}) channels.emplace_back(name);
+  writeFile("f0.exr", {.parts = {ExrPart{.channels = channels}}});
+  writeFile("ref_f0.exr", {.parts = {ExrPart{.channels = channels}}});
+
+  options.light = {.indirect = false, .specular = SpecularWish::Denoised};
+  const auto valueOf = [](int channel) { return static_cast<float>(toHalf(valueAt(3, 1, channel))); };
+  const Frame frame = open(options).read(0);
+  const float light = valueOf(first) / valueOf(first + 3);
+  EXPECT_EQ(frame.specular.at(3, 1, 0), light);
+  EXPECT_EQ(frame.reference->specular.at(3, 1, 0), light);
+  EXPECT_EQ(frame.specularAlbedo.at(3, 1, 2), valueOf(first + 5));
+  EXPECT_EQ(frame.specularDistance.at(3, 1, 0), valueOf(first + 6));
+  EXPECT_EQ(frame.roughness.at(3, 1, 0), valueOf(first + 7));
+
+  json.replace(json.find("times albedo"), 5, "without");
+  // A channel of the file may stand for several: those of a grey light for one.
+  json.insert(json.find("\"Motion\""), R"("Direct": ["s.R", "s.R", "s.R"], "Emission": ["c.R", "c.G", "c.B"], )");
+  options.channelMap = writeMap(json);
+  options.light = kWholePicture;
+  const Frame whole = open(options).read(0);
+  EXPECT_EQ(whole.nonDiffuse.at(3, 1, 1), valueOf(first + 1) * valueOf(first + 4));
+  EXPECT_EQ(whole.nonDiffuse.at(3, 1, 0), valueOf(first) * valueOf(first + 3));
+  for (const int component : {0, 1, 2}) EXPECT_EQ(whole.direct.at(3, 1, component), valueOf(first));
+}
+
 TEST_F(SequenceWindows, WrongMapsAreNamed) {
   files.writeCameras(0, 0);
   writeFile("f0.exr", {.parts = {ExrPart{.channels = mappedChannels()}}});
@@ -256,6 +293,7 @@ TEST_F(SequenceWindows, WrongMapsAreNamed) {
   expectBad("[\"Z\"]", "[\"depth.Z\"]", {"f0.exr", "missing channel depth.Z", "Channels found", "diffuse_albedo.B"});
   expectBad("[\"Z\"]", "\"Z\"", {"map.json", "\"Depth\"", "array of 1 names"});
   expectBad("[\"motionvector.R\", ", "[", {"map.json", "\"Motion\"", "2 or 3"});
+  expectBad("\"Depth\"", R"("Roughness": ["Z"], "Depth")", {"map.json", "\"Specular\"", "\"SpecularAlbedo\""});
   expectBad("\"Depth\"", "\"Deep\"", {"map.json", "\"Deep\"", "ObjectId"});
   expectBad("\"world\"", "\"object\"", {"map.json", "\"normals\"", "\"view\" or \"world\""});
   expectBad("[1, -1]", "[1]", {"map.json", "\"motionScale\"", "2 numbers"});

@@ -15,11 +15,12 @@
 
 namespace walr {
 
-inline Image readIndirect(const std::filesystem::path& file, const std::string& plane = "Indirect") {
+inline Image readPlane(const std::filesystem::path& file, const std::string& plane = "Indirect") {
   ExrReader reader(file);
   Image image(reader.width(), reader.height(), 3);
+  const std::string prefix = plane.empty() ? "" : plane + ".";
   reader.read(
-      std::vector<ExrReader::Target>{{plane + ".R", &image, 0}, {plane + ".G", &image, 1}, {plane + ".B", &image, 2}});
+      std::vector<ExrReader::Target>{{prefix + "R", &image, 0}, {prefix + "G", &image, 1}, {prefix + "B", &image, 2}});
   return image;
 }
 

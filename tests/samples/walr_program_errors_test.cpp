@@ -55,7 +55,7 @@ TEST_F(ProgramTest, ATruncatedFrameLeavesTheFinishedOnesWhole) {
   expectFailure(denoise(), kInput, {"noisy_0002.exr", "truncated or damaged"});
   for (const std::string& name : outputFiles()) {
     EXPECT_TRUE(name == "denoised_0000.exr" || name == "denoised_0001.exr") << name;
-    expectFinite(readIndirect(output / name));
+    expectFinite(readPlane(output / name));
   }
 }
 
@@ -138,7 +138,7 @@ TEST_F(ProgramTest, AFullOutputLeavesNoPartialFile) {
 
 TEST_F(ProgramTest, AFullStandardOutputIsSaid) {
   for (const char* command : {"graph --json", "denoise --list-devices", "graph --list-passes", "--help"}) {
-    const std::string line = std::string(WALR_PROGRAM) + " " + command + " > /dev/full";
+    const std::string line = std::string(WALR_PROGRAM " ") + command + " > /dev/full";
     expectFailure(test::runProcess({"/bin/sh", "-c", line}), kOutput, {"standard output"});
   }
 }

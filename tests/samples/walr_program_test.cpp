@@ -93,7 +93,7 @@ TEST_F(ProgramTest, DenoisesAndMeasures) {
   EXPECT_GT(report["frames"][5]["gpu_ms"], 0.0);
   // The reference is constant, so a denoiser's error must be far below that of one sample per pixel.
   EXPECT_LT(report["frames"][5]["rmse"].get<double>(), 0.25 * report["frames"][5]["noisy"]["rmse"].get<double>());
-  expectFinite(readIndirect(output / "denoised_0005.exr"));
+  expectFinite(readPlane(output / "denoised_0005.exr"));
 }
 
 TEST_F(ProgramTest, DenoisesSpecularLight) {
@@ -107,14 +107,41 @@ TEST_F(ProgramTest, DenoisesSpecularLight) {
   const auto last = nlohmann::json::parse(test::readText(json))["frames"][3];
   EXPECT_TRUE(last["rmse"].is_null());  // Of indirect light.
   EXPECT_LT(last["specular"]["rmse"].get<double>(), 0.9 * last["specular"]["noisy"]["rmse"].get<double>());
-  expectFinite(readIndirect(output / "denoised_0011.exr", "Specular"));
+  expectFinite(readPlane(output / "denoised_0011.exr", "Specular"));
   EXPECT_TRUE(fs::exists(output / "view_reflection-motion_0011.exr"));
 
   expectFailure(denoise({"--light", "specular"}), kUsage, {"'walr'", "diffuse light only", "accumulate"});
-  expectFailure(denoise({"--light", "specular", "--method", "accumulate", "--composite"}), kUsage, {"--composite"});
+  expectFailure(denoise({"--light", "specular", "--method", "accumulate", "--composite"}), kUsage,
+                {"--composite", "--light all"});
   const ProcessResult views = walr({"denoise", "--list-views", "--light", "specular", "--method", "accumulate"});
   expectSuccess(views);
   EXPECT_NE(views.out.find("reflection-motion"), std::string::npos) << views.out;
+}
+
+// The picture is lit by the lights that are written beside it, and nothing else.
+TEST_F(ProgramTest, DenoisesAllLightOfAPicture) {
+  const std::string scene = std::string(WALR_SCENES) + "/gloss.gltf";
+  expectSuccess(walr({"render", scene, "--output", input.string(), "--frames", "8-9", "--size", "64x36", "--bounces",
+                      "1", "--specular"}));
+  const ProcessResult result = denoise({"--light", "all", "--method", "accumulate", "--composite"});
+  expectSuccess(result);
+  EXPECT_NE(result.out.find("without denoising: Emission\n"), std::string::npos) << result.out;
+  const auto lit = [&](const std::string& plane) { return readPlane(output / "denoised_0009.exr", plane); };
+  const auto frame = [&](const std::string& plane) { return readPlane(input / "noisy_0009.exr", plane); };
+  const Image picture = lit("");
+  const Image indirect = lit("Indirect");
+  const Image direct = lit("Direct");
+  const Image specular = lit("Specular");
+  const Image albedo = frame("Albedo");
+  const Image specularAlbedo = frame("SpecularAlbedo");
+  const Image emission = frame("Emission");
+  EXPECT_FALSE(std::ranges::equal(specular.values(), frame("Specular").values()));
+  for (std::size_t i = 0; i < picture.values().size(); ++i) {
+    const float expected = albedo.values()[i] * (indirect.values()[i] + direct.values()[i]) + emission.values()[i] +
+                           specularAlbedo.values()[i] * specular.values()[i];
+    // The picture is rounded to halves, the smallest of which is 2^-24.
+    ASSERT_NEAR(picture.values()[i], expected, 0x1p-24F + 0x1p-10F * expected) << i;
+  }
 }
 
 TEST_F(ProgramTest, NamesTheSpecularLightThatFramesLack) {
@@ -282,7 +309,7 @@ TEST_F(ProgramTest, ResultsOfMovingCropsLieOverTheirFrames) {
   EXPECT_EQ(denoised.dataWindow(), (PixelRect{{6, 3}, {18, 12}}));
   EXPECT_EQ(denoised.displayWindow(), (PixelRect{{0, 0}, {24, 18}}));
   // The method gives the input back, rounded to halves, which the values are.
-  EXPECT_EQ(readIndirect(output / "denoised_0001.exr").at(0, 0, 2), test::valueAt(6, 3, 4));
+  EXPECT_EQ(readPlane(output / "denoised_0001.exr").at(0, 0, 2), test::valueAt(6, 3, 4));
   expectFailure(denoise({"--average", "2"}), kUsage, {"--average", "data window"});
 }
 
@@ -299,11 +326,11 @@ TEST_F(ProgramTest, RendersLintsAndDenoisesSparseLight) {
 TEST_F(ProgramTest, DenoisesWithAShareOfTheSamples) {
   files.write(0, 2);
   expectSuccess(denoise({"--method", "accumulate"}));
-  const Image all = readIndirect(output / "denoised_0002.exr", "Indirect");
+  const Image all = readPlane(output / "denoised_0002.exr", "Indirect");
   const ProcessResult result = denoise({"--method", "accumulate", "--light-rate", "1/4"});
   expectSuccess(result);
   EXPECT_NE(result.out.find("one sample in 2 x 2 pixels"), std::string::npos) << result.out;
-  EXPECT_FALSE(std::ranges::equal(readIndirect(output / "denoised_0002.exr", "Indirect").values(), all.values()));
+  EXPECT_FALSE(std::ranges::equal(readPlane(output / "denoised_0002.exr", "Indirect").values(), all.values()));
   expectFailure(denoise({"--method", "svgf", "--light-rate", "1/4"}), kUsage,
                 {"needs a sample of light at every pixel"});
 }
@@ -329,15 +356,15 @@ TEST_F(ProgramTest, TellsTheLinterAndTheDenoiserThatMotionHasNoDepth) {
 TEST_F(ProgramTest, MethodNoneGivesTheInputBack) {
   files.write(0, 1);
   expectSuccess(denoise({"--method", "none"}));
-  const Image in = readIndirect(files.frameFile(1), "DiffInd");
-  const Image out = readIndirect(output / "denoised_0001.exr");
+  const Image in = readPlane(files.frameFile(1), "DiffInd");
+  const Image out = readPlane(output / "denoised_0001.exr");
   EXPECT_TRUE(std::ranges::equal(in.values(), out.values()));
 }
 
 TEST_F(ProgramTest, WritesAndMeasuresAveragedPictures) {
   files.write(0, 1);
   expectSuccess(denoise({"--method", "accumulate"}));
-  const Image fine = readIndirect(output / "denoised_0001.exr");
+  const Image fine = readPlane(output / "denoised_0001.exr");
   const fs::path json = directory.path() / "report.json";
   const ProcessResult result = denoise({"--method", "accumulate", "--average", "3", "--json", json.string(), "--png"});
   expectSuccess(result);
@@ -346,7 +373,7 @@ TEST_F(ProgramTest, WritesAndMeasuresAveragedPictures) {
   const auto report = nlohmann::json::parse(test::readText(json));
   EXPECT_EQ(report["average"], 3);
   EXPECT_GT(report["mean"]["rmse"], 0.0);
-  const Image picture = readIndirect(output / "denoised_0001.exr");
+  const Image picture = readPlane(output / "denoised_0001.exr");
   ASSERT_EQ(picture.width(), 8);
   ASSERT_EQ(picture.height(), 6);
   double sum = 0.0;
@@ -364,7 +391,7 @@ TEST_F(ProgramTest, TheSkyComesOutAsItWentIn) {
   files.writeCameras(0, 0);
   files.writeFrame(0, [](Channels& channels) { channels.at("DiffInd.G").at(7, 0, 0) = 0.75F; });
   expectSuccess(denoise());
-  const Image out = readIndirect(output / "denoised_0000.exr");
+  const Image out = readPlane(output / "denoised_0000.exr");
   for (int x = 0; x < out.width(); ++x) {
     EXPECT_EQ(out.at(x, 0, 0), 0.0F);
     EXPECT_EQ(out.at(x, 0, 1), x == 7 ? 0.75F : 0.0F);
@@ -463,7 +490,7 @@ TEST_F(ProgramTest, DenoisesBothLightsAsEachAlone) {
     return report["frames"][2];
   };
   const auto values = [&](const std::string& plane) {
-    const Image image = readIndirect(output / "denoised_0002.exr", plane);
+    const Image image = readPlane(output / "denoised_0002.exr", plane);
     return std::vector<float>(image.values().begin(), image.values().end());
   };
   const auto indirect = run("indirect");
@@ -511,7 +538,7 @@ TEST_F(ProgramTest, TinyAndOddSizesComeOutFinite) {
     const auto [width, height] = kSizes.at(next++ % kSizes.size());
     SyntheticSequence(input, width, height).write(0, 1);
     expectSuccess(denoise({"--method", method}));
-    const Image out = readIndirect(output / "denoised_0001.exr");
+    const Image out = readPlane(output / "denoised_0001.exr");
     EXPECT_EQ(out.width(), width);
     EXPECT_EQ(out.height(), height);
     expectFinite(out);
