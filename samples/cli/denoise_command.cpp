@@ -144,13 +144,13 @@ void refuseWithSpecularLight(const DenoiseOptions& options) {
     throw UsageError("--light " + options.light + " cannot have " + option + ": leave out one of them");
   };
   if (options.average > 1) refuse("--average");
+  if (!options.sequence.keptLight.everyPixel()) refuse("--light-rate");
   if (options.light == "all") return;
   if (options.output.composite) {
     throw UsageError("--composite makes whole pictures: give --light all, which denoises diffuse light, too");
   }
   if (options.directLight == "reference") refuse("--direct-light reference");
   if (options.lightDirection) refuse("--light-direction");
-  if (!options.sequence.keptLight.everyPixel()) refuse("--light-rate");
 }
 
 /// The value of --light, or its default.

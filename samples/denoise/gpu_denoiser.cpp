@@ -99,10 +99,10 @@ struct GpuDenoiser::State {
 
   /// Record and submit a frame.
   /// @param lights    as many as there are methods
-  /// @param albedo    of the lobe that reflects the lights
-  /// @param roughness empty unless the light is specular
-  void submit(const PackedFrame& packed, std::span<const LightTexels> lights, const std::vector<Rgba16>& albedo,
-              const std::vector<std::uint8_t>& roughness);
+  /// @param lobeAlbedo    of the lobe that reflects the lights
+  /// @param lobeRoughness empty unless the light is specular
+  void submit(const PackedFrame& packed, std::span<const LightTexels> lights, const std::vector<Rgba16>& lobeAlbedo,
+              const std::vector<std::uint8_t>& lobeRoughness);
   /// The same for lights of the lobe of the frame's own light.
   void submit(const PackedFrame& packed, std::span<const LightTexels> lights) {
     submit(packed, lights, packed.albedo, packed.roughness);

@@ -12,6 +12,9 @@
 namespace walr::host {
 namespace {
 
+// What the names of the passes and histories of specular light that is denoised begin with, behind `kComparedPrefix`,
+// if any.
+constexpr std::string_view kSpecularPrefix = "specular: ";
 constexpr VkFormat kColourFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_R32_SFLOAT;
 constexpr VkFormat kDisplayFormat = VK_FORMAT_R8G8B8A8_UNORM;
@@ -139,7 +142,8 @@ Shading shadingOf(const HostGraph& host) {
 }
 
 /// Denoise what a method takes of the frame, and light the image with it.
-/// @param outputs  what the denoised light, which replaces the first, and the image are written to
+/// @param denoised  what diffuse light is written to, replaced by the written version
+/// @param lit       what the image is written to
 /// @returns the image
 fg::Texture addLit(HostGraph& host, Denoiser& method, DenoiserInputs inputs, const std::string& prefix,
                    fg::Texture& denoised, fg::Texture lit) {

@@ -39,8 +39,6 @@ struct HostView {
 
 /// What the names of the passes, textures and histories of `HostView::compared` begin with.
 inline constexpr std::string_view kComparedPrefix = "right: ";
-/// The same of specular light that is denoised, behind the other prefix, if any.
-inline constexpr std::string_view kSpecularPrefix = "specular: ";
 
 /// A host's whole frame as one graph: uploads or the path tracer, the method's passes, composite, tone map.
 struct HostGraph {
@@ -68,8 +66,8 @@ struct HostGraph {
   std::optional<fg::Buffer> lint;  ///< With `HostView::lint`: what `InputLinter` reads, as `fg::vk::kReadable`.
   fg::Buffer frameConstants;
   fg::Buffer viewConstants;
-  fg::Texture denoised;   ///< RGBA16F: the output of the method. Specular light is denoised if the method takes it.
-  fg::Texture composite;  ///< RGBA16F: the lit image with the denoised light.
+  fg::Texture denoised;   ///< RGBA16F: the output of the method.
+  fg::Texture composite;  ///< RGBA16F: the lit image with the denoised light; specular too, if the method takes it.
   fg::Texture display;    ///< RGBA8: the displayed image.
 };
 

@@ -174,8 +174,9 @@ void run(HostOptions& options) {
   if (const std::optional<std::string> preset = presetInUse(options.method.name, *method)) {
     std::cout << ", preset " << *preset;
   }
-  if (tracer.specular() && !method->takesSpecularLight()) {
-    std::cout << "; it takes no specular light, which is shown as it was traced";
+  for (const auto& [name, shown] : {std::pair{options.method.name, method.get()}, {compare.name, compared.get()}}) {
+    if (!tracer.specular() || shown->takesSpecularLight()) continue;
+    std::cout << "\nspecular light: as it was traced where " << name << " denoises, which does not take it";
   }
   std::cout << "\ndevice: " << gpu.name() << ", driver " << gpu.driver() << "\ntracer: " << decision.text << because
             << std::endl;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -171,14 +172,17 @@ bool refuseToWrite(std::string* /*errors*/, const std::string& /*file*/, const s
   return false;
 }
 
-// Newer versions of tinygltf ignore all callbacks if one of theirs is missing.
-template <typename Callbacks>
-void addSizeOfFiles(Callbacks& callbacks) {
+// Newer versions of tinygltf have one more callback, and return false, without effect, if one is missing.
+template <typename Parser, typename Callbacks>
+void setCallbacks(Parser& parser, Callbacks callbacks) {
   if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
     callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
       *size = 0;  // `readFile` looks at it.
       return true;
     };
+    if (!parser.SetFsCallbacks(callbacks)) throw std::logic_error("tinygltf has callbacks that are not known here");
+  } else {
+    parser.SetFsCallbacks(callbacks);
   }
 }
 
@@ -213,9 +217,8 @@ tinygltf::Model readModel(const std::filesystem::path& file, Fingerprint* conten
   callbacks.ExpandFilePath = &samePath;
   callbacks.ReadWholeFile = &readFile;
   callbacks.WriteWholeFile = &refuseToWrite;
-  addSizeOfFiles(callbacks);
   callbacks.user_data = &files;
-  parser.SetFsCallbacks(callbacks);
+  setCallbacks(parser, callbacks);
 
   tinygltf::Model model;
   std::string errors;

@@ -315,7 +315,6 @@ std::string RecognizedLayout::plane(std::string_view name) const {
 }
 
 std::string RecognizedLayout::plane(Light light) const {
-  if (light == Light::Specular) return plane(layout->specular.front().name);
   return plane(planeOf(*layout, roleOf(light)).name);
 }
 
@@ -416,9 +415,11 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
 
 void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
   std::vector<Plane> planes;
+  const bool divides = layout.map != nullptr && layout.map->lightTimesAlbedo;
   if (wanted.onlySpecular()) {
-    std::ranges::copy_if(layout.specular, std::back_inserter(planes),
-                         [](const Plane& plane) { return plane.role == Role::Specular; });
+    std::ranges::copy_if(layout.specular, std::back_inserter(planes), [&](const Plane& plane) {
+      return plane.role == Role::Specular || (divides && plane.role == Role::SpecularAlbedo);
+    });
     requirePlanes(file, layout, planes, "Render references with specular light, too, or remove them.");
     return;
   }
@@ -427,6 +428,7 @@ void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& lay
   const bool mayHoldDirect = wanted.direct && hasPlane(file, layout, direct);
   if (mayHoldDirect) planes.push_back(direct);
   if (!mayHoldDirect || hasPlane(file, layout, indirect)) planes.push_back(indirect);
+  if (divides) planes.push_back(planeOf(*layout.layout, Role::Albedo));
   requirePlanes(file, layout, planes, "A file whose name starts with 'ref' is a reference; rename it if it is not.");
 }
 
@@ -488,7 +490,7 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, const L
     for (const Plane& plane : layout.specular) {
       if (plane.role == Role::Specular) names.push_back(std::string(plane.name) + (i == 0 ? "" : "A"));
     }
-    if (!std::ranges::all_of(names, [&](const auto& name) { return hasPlane(file, layout, colours(name)); })) continue;
+    if (!std::ranges::all_of(names, [&](const auto& name) { return hasPlane(file, layout, colours(name)); })) break;
     parts.at(i).resize(names.size());
     for (std::size_t p = 0; p < names.size(); ++p) addPlane(colours(names[p]), parts.at(i)[p]);
   }

@@ -125,34 +125,48 @@ INSTANTIATE_TEST_SUITE_P(Methods, LightDenoisersTest,
                                          Choice{"flr"}, Choice{"flnr"}, Choice{"joint_bilateral"}, Choice{"accumulate"},
                                          Choice{"none"}));
 
+/// Lights of all three kinds. `none` shares no guides.
+struct AllLights {
+  std::string method;
+  LightPattern light = {};  ///< Of diffuse light; specular light has samples where it has a distance.
+};
+
 TEST(LightDenoisers, AllLightsAreThoseOfDenoisersOfTheirOwn) {
   GpuDevice gpu({.device = {}, .validation = true});
-  Layout specularLayout = projectLayout();
-  specularLayout.conventions.specular = true;
-  const auto run = [&](std::initializer_list<Light> lights, const Layout& layout) {
-    std::vector<LightMethod> methods;
-    for (const Light light : lights) methods.push_back(lightMethod({"accumulate"}, light));
-    LightDenoisers denoiser(gpu, methods, kExtent, layout, {}, 1, true);
-    std::optional<DenoisedFrame> last;
-    for (Frame& frame : frames()) {
-      frame.specular = Image(kWidth, kHeight, 3);
-      fillWithNoise(frame.specular, 100U + static_cast<std::uint32_t>(frame.number));
-      frame.specularAlbedo = Image(kWidth, kHeight, 3);
-      std::ranges::fill(frame.specularAlbedo.values(), 0.5F);
-      frame.specularDistance = frame.roughness = Image(kWidth, kHeight, 1);
-      std::ranges::fill(frame.specularDistance.values(), 2.0F);
-      std::ranges::fill(frame.roughness.values(), 0.25F);
-      denoiser.submit(denoiser.pack(std::move(frame)));
-      last = denoiser.finish();
-    }
-    return *last;
-  };
-  const DenoisedFrame all = run({Light::Indirect, Light::Direct, Light::Specular}, projectLayout());
-  const DenoisedFrame specular = run({Light::Specular}, specularLayout);
-  EXPECT_TRUE(std::ranges::equal(all.indirect.values(), run({Light::Indirect}, projectLayout()).indirect.values()));
-  EXPECT_TRUE(std::ranges::equal(all.direct.values(), run({Light::Direct}, projectLayout()).direct.values()));
-  EXPECT_TRUE(std::ranges::equal(all.specular.values(), specular.specular.values()));
-  EXPECT_FALSE(std::ranges::equal(all.specular.values(), specular.frame.specular.values()));  // It has a history.
+  for (const AllLights& choice :
+       {AllLights{"accumulate"}, AllLights{"accumulate", {.columns = 2, .rows = 2}}, AllLights{"none"}}) {
+    SCOPED_TRACE(choice.method + " " + std::to_string(choice.light.columns));
+    Layout layout = projectLayout();
+    layout.conventions.light = choice.light;
+    Layout specularLayout = projectLayout();
+    specularLayout.conventions.specular = true;
+    const auto run = [&](std::initializer_list<Light> lights, const Layout& described) {
+      std::vector<LightMethod> methods;
+      for (const Light light : lights) methods.push_back(lightMethod({choice.method}, light));
+      LightDenoisers denoiser(gpu, methods, kExtent, described, {}, 1, true);
+      std::optional<DenoisedFrame> last;
+      for (Frame& frame : frames()) {
+        frame.light = choice.light;
+        frame.specular = Image(kWidth, kHeight, 3);
+        fillWithNoise(frame.specular, 100U + static_cast<std::uint32_t>(frame.number));
+        frame.specularAlbedo = Image(kWidth, kHeight, 3);
+        std::ranges::fill(frame.specularAlbedo.values(), 0.5F);
+        frame.specularDistance = frame.roughness = Image(kWidth, kHeight, 1);
+        std::ranges::fill(frame.specularDistance.values(), 2.0F);
+        std::ranges::fill(frame.roughness.values(), 0.25F);
+        denoiser.submit(denoiser.pack(std::move(frame)));
+        last = denoiser.finish();
+      }
+      return *last;
+    };
+    const DenoisedFrame all = run({Light::Indirect, Light::Direct, Light::Specular}, layout);
+    const DenoisedFrame specular = run({Light::Specular}, specularLayout);
+    EXPECT_TRUE(std::ranges::equal(all.indirect.values(), run({Light::Indirect}, layout).indirect.values()));
+    EXPECT_TRUE(std::ranges::equal(all.direct.values(), run({Light::Direct}, layout).direct.values()));
+    EXPECT_TRUE(std::ranges::equal(all.specular.values(), specular.specular.values()));
+    // It has a history.
+    EXPECT_EQ(std::ranges::equal(all.specular.values(), specular.frame.specular.values()), choice.method == "none");
+  }
   EXPECT_NO_THROW(gpu.refuseMessages());
 }
 

@@ -276,6 +276,34 @@ TEST_F(SequenceWindows, AMapFindsSpecularLight) {
   EXPECT_EQ(whole.nonDiffuse.at(3, 1, 1), valueOf(first + 1) * valueOf(first + 4));
   EXPECT_EQ(whole.nonDiffuse.at(3, 1, 0), valueOf(first) * valueOf(first + 3));
   for (const int component : {0, 1, 2}) EXPECT_EQ(whole.direct.at(3, 1, component), valueOf(first));
+
+  // The same where the images of all frames are larger than the file's.
+  files.writeCameras(0, 1);
+  writeFile("f1.exr", {.parts = {ExrPart{.channels = channels, .data = Box({-1, -1}, {5, 3})}}});
+  const Frame larger = open(options).read(0);
+  for (const int component : {0, 1, 2}) EXPECT_EQ(larger.direct.at(4, 2, component), valueOf(first));
+}
+
+// A half without its whole is no reference.
+TEST_F(SequenceWindows, AReferenceMayLackSpecularLight) {
+  files.writeCameras(0, 0);
+  std::string json = kMap;
+  json.insert(json.find("\"Indirect\""), R"("Specular": ["s.R", "s.G", "s.B"], "SpecularAlbedo": ["c.R", "c.G", "c.B"],
+    "SpecularDistance": ["d.Z"], "Roughness": ["r.Y"], )");
+  std::vector<std::string> channels = mappedChannels();
+  for (const char* const name : {"SpecularA.R", "SpecularA.G", "SpecularA.B"}) channels.emplace_back(name);
+  writeFile("ref_f0.exr", {.parts = {ExrPart{.channels = channels}}});
+  for (const char* const name : {"s.R", "s.G", "s.B", "c.R", "c.G", "c.B", "d.Z", "r.Y"}) channels.emplace_back(name);
+  writeFile("f0.exr", {.parts = {ExrPart{.channels = channels}}});
+  SequenceOptions options;
+  options.channelMap = writeMap(json);
+  options.light.specular = SpecularWish::Denoised;
+  const Frame frame = open(options).read(0);
+  EXPECT_TRUE(frame.reference->specular.empty() && frame.reference->specularHalf.empty());
+  // Checked before any frame is read.
+  std::erase(channels, "diffuse_albedo.G");
+  writeFile("ref_f0.exr", {.parts = {ExrPart{.channels = channels}}});
+  expectRefused({"ref_f0.exr", "diffuse_albedo.G"}, options);
 }
 
 TEST_F(SequenceWindows, WrongMapsAreNamed) {

@@ -136,6 +136,8 @@ TEST_F(ProgramTest, DenoisesAllLightOfAPicture) {
   const Image specularAlbedo = frame("SpecularAlbedo");
   const Image emission = frame("Emission");
   EXPECT_FALSE(std::ranges::equal(specular.values(), frame("Specular").values()));
+  EXPECT_FALSE(std::ranges::equal(indirect.values(), frame("Indirect").values()));
+  EXPECT_FALSE(std::ranges::equal(direct.values(), frame("Direct").values()));
   for (std::size_t i = 0; i < picture.values().size(); ++i) {
     const float expected = albedo.values()[i] * (indirect.values()[i] + direct.values()[i]) + emission.values()[i] +
                            specularAlbedo.values()[i] * specular.values()[i];
