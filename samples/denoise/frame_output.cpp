@@ -50,6 +50,25 @@ LightErrors errorsOf(const Image& denoised, const Image& noisy, const Image& ref
   return errors;
 }
 
+/// RMSE of denoised specular light in each class of roughness.
+ErrorsByRoughness errorsByRoughness(const Image& denoised, const Frame& frame) {
+  ErrorsByRoughness errors;
+  const Image& reference = referenceOf(frame).specular;
+  if (denoised.empty() || reference.empty()) return errors;
+  const PixelMask mask = diffuseMask(frame.specularAlbedo, frame.normal, frame.depth, kSkyDepth, reference);
+  const DisplayedPair pair = display(denoised, reference, mask);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    PixelMask ofClass = mask;
+    for (std::size_t p = 0; p < mask.size(); ++p) {
+      const float roughness = frame.roughness.pixel(p)[0];
+      const bool below = roughness < kRoughnessBounds.at(i + 1) || i + 1 == errors.size();
+      if (!(roughness >= kRoughnessBounds.at(i) && below)) ofClass[p] = 0;
+    }
+    errors.at(i) = rmseOf(pair, ofClass);
+  }
+  return errors;
+}
+
 }  // namespace
 
 Image composite(const Image& indirect, const Image& direct, const Image& albedo, const Image& emission) {
@@ -177,6 +196,7 @@ FrameReport measure(const DenoisedFrame& denoised, const DenoisedFrame& shown) {
   report.direct = errorsOf(shown.direct, frame.direct, reference.direct, {}, frame.albedo, frame);
   report.specular =
       errorsOf(shown.specular, frame.specular, reference.specular, reference.specularHalf, frame.specularAlbedo, frame);
+  report.byRoughness = errorsByRoughness(shown.specular, frame);
   return report;
 }
 

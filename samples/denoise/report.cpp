@@ -33,7 +33,10 @@ void addMeasurements(Json& object, const FrameReport& frame) {
   object["gpu_ms"] = number(frame.gpuMilliseconds);
   addErrors(object, frame.indirect);
   addErrors(object["direct"], frame.direct);
-  addErrors(object["specular"], frame.specular);
+  Json& specular = object["specular"];
+  addErrors(specular, frame.specular);
+  specular["rmse_by_roughness"] = Json::array();
+  for (const std::optional<double>& rmse : frame.byRoughness) specular["rmse_by_roughness"].push_back(number(rmse));
 }
 
 Json settingsJson(const SettingsText& settings) {
@@ -150,6 +153,15 @@ void printCounters(std::ostream& stream, const std::vector<FrameReport>& frames)
   }
 }
 
+void printRoughness(std::ostream& stream, const ErrorsByRoughness& errors) {
+  stream << "Mean RMSE of the specular light by linear roughness:";
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    stream << (i > 0 ? ", " : " ") << kRoughnessBounds.at(i) << " to " << kRoughnessBounds.at(i + 1) << ' '
+           << cell(errors.at(i), 5, 0);
+  }
+  stream << '\n';
+}
+
 }  // namespace
 
 FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first) {
@@ -164,6 +176,11 @@ FrameReport meanReport(const std::vector<FrameReport>& frames, std::size_t first
   mean.indirect = meanErrors(frames, first, &FrameReport::indirect);
   mean.direct = meanErrors(frames, first, &FrameReport::direct);
   mean.specular = meanErrors(frames, first, &FrameReport::specular);
+  for (std::size_t i = 0; i < mean.byRoughness.size(); ++i) {
+    MeanFigures figures;
+    for (std::size_t f = first; f < frames.size(); ++f) figures.add({frames[f].byRoughness.at(i), {}, {}});
+    mean.byRoughness.at(i) = figures.mean().rmse;
+  }
   if (timed > 0) {
     mean.gpuMilliseconds = milliseconds / static_cast<double>(timed);
   }
@@ -205,6 +222,9 @@ void printReport(std::ostream& stream, const DenoiseReport& report) {
   for (const MeasuredLight& light : lights) {
     stream << "Errors of the " << light.name << ":\n";
     printTable(stream, report, light.errors);
+    if (light.errors == &FrameReport::specular) {
+      printRoughness(stream, meanReport(report.frames, 0).byRoughness);
+    }
     if (const std::optional<double> noise = (meanReport(report.frames, 0).*light.errors).referenceNoise) {
       stream << "Noise of the references: RMSE " << cell(noise, 5, 0) << ", which is part of every error above.\n";
     }

@@ -42,12 +42,24 @@ ErrorFigures compare(const Image& test, const Image& reference, const PixelMask&
   return compare(display(test, reference, mask), mask);
 }
 
-ErrorFigures compare(const DisplayedPair& pair, const PixelMask& mask) {
+std::optional<double> rmseOf(const DisplayedPair& pair, const PixelMask& mask) {
   const double count = countOf(mask);
-  if (count == 0.0) {
-    return {};
-  }
+  if (count == 0.0) return std::nullopt;
   double squares = 0.0;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      if (mask[i] == 0) continue;
+      const double difference = static_cast<double>(pair.test.pixel(i)[c]) - pair.reference.pixel(i)[c];
+      squares += difference * difference;
+    }
+  }
+  return std::sqrt(squares / (count * kChannels));
+}
+
+ErrorFigures compare(const DisplayedPair& pair, const PixelMask& mask) {
+  ErrorFigures figures;
+  figures.rmse = rmseOf(pair, mask);
+  if (!figures.rmse) return figures;
   double similarities = 0.0;
   bool hasWindows = true;
   std::vector<double> testPlane(mask.size());
@@ -56,16 +68,12 @@ ErrorFigures compare(const DisplayedPair& pair, const PixelMask& mask) {
     for (std::size_t i = 0; i < mask.size(); ++i) {
       testPlane[i] = pair.test.pixel(i)[c];
       referencePlane[i] = pair.reference.pixel(i)[c];
-      const double difference = testPlane[i] - referencePlane[i];
-      squares += difference * difference;
     }
     const auto similarity =
         structuralSimilarity(testPlane, referencePlane, mask, pair.reference.width(), pair.reference.height());
     hasWindows = similarity.has_value();
     similarities += similarity.value_or(0.0);
   }
-  ErrorFigures figures;
-  figures.rmse = std::sqrt(squares / (count * kChannels));
   if (*figures.rmse > 0.0) {
     figures.psnr = -20.0 * std::log10(*figures.rmse);
   }

@@ -34,6 +34,9 @@ ErrorFigures compare(const Image& test, const Image& reference, const PixelMask&
 /// The same for the result of `display` with the same mask.
 ErrorFigures compare(const DisplayedPair& pair, const PixelMask& mask);
 
+/// Their RMSE alone, which takes far less time; nullopt if the mask is empty.
+std::optional<double> rmseOf(const DisplayedPair& pair, const PixelMask& mask);
+
 /// Relative mean squared error in linear radiance, without a tone map: the mean of (x - r)^2 / (r^2 + 0.01) over the
 /// mask's pixels and RGB (Rousselle et al. 2011). A non-finite value of `test` counts as 65504, the largest half float.
 /// @returns nullopt if the mask is empty

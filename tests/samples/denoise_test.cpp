@@ -237,6 +237,29 @@ TEST_F(FrameOutputTest, MeasuresResultAndInput) {
   EXPECT_EQ(report.nonFiniteOutput, 0U);
 }
 
+// The tone map takes 0, 1 and 3 to 0, 1/2 and 3/4.
+TEST_F(FrameOutputTest, TellsErrorsOfSpecularLightByRoughness) {
+  const auto constant = [](int components, float value) {
+    Image image(16, 12, components);
+    std::ranges::fill(image.values(), value);
+    return image;
+  };
+  Frame& frame = denoised.frame;
+  frame.depth = constant(1, 2.0F);
+  frame.normal = frame.specularAlbedo = frame.specular = denoised.specular = constant(3, 1.0F);
+  frame.reference = Reference{.specular = constant(3, 1.0F)};
+  frame.roughness = constant(1, 0.0F);
+  const auto pixel = [&](int x, float roughness, float light) {
+    frame.roughness.at(x, 0, 0) = roughness;
+    for (int c = 0; c < 3; ++c) denoised.specular.at(x, 0, c) = light;
+  };
+  pixel(0, 0.1F, 3.0F);
+  pixel(1, 0.59F, 1.0F);
+  pixel(2, 1.0F, 0.0F);
+  pixel(3, kNan, 0.0F);
+  EXPECT_EQ(measure(denoised).byRoughness, (ErrorsByRoughness{0.0, 0.25, std::nullopt, std::nullopt, 0.0, 0.5}));
+}
+
 DenoiseReport exampleReport() {
   DenoiseReport report{"walr", {{"iterations", "4"}}, "Some GPU", "some driver 1.2", false, "walr", "indirect", {16, 9},
                        {}};
@@ -286,6 +309,21 @@ TEST(Report, EachLightHasItsErrors) {
   printReport(both, report);
   EXPECT_NE(both.str().find("Errors of the direct light:"), std::string::npos);
   EXPECT_NE(both.str().find("0.12500"), std::string::npos) << both.str();
+}
+
+TEST(Report, ErrorsByRoughnessHaveTheMeanOfTheirFrames) {
+  DenoiseReport report = exampleReport();
+  report.frames[1].specular.denoised.rmse = 0.3;
+  report.frames[1].byRoughness[1] = 0.25;
+  report.frames[5].byRoughness[1] = 0.75;
+  const auto json = nlohmann::json::parse(reportJson(report));
+  EXPECT_EQ(json["frames"][1]["specular"]["rmse_by_roughness"][1], 0.25);
+  EXPECT_EQ(json["mean"]["specular"]["rmse_by_roughness"][1], 0.5);
+  EXPECT_EQ(json["mean_after_4"]["specular"]["rmse_by_roughness"][1], 0.75);
+  EXPECT_TRUE(json["mean"]["specular"]["rmse_by_roughness"][0].is_null());
+  std::ostringstream table;
+  printReport(table, report);
+  EXPECT_NE(table.str().find("0 to 0.1 -, 0.1 to 0.2 0.50000, 0.2 to 0.3 -"), std::string::npos) << table.str();
 }
 
 TEST(Report, CountersHaveAMeanAndAMaximum) {
