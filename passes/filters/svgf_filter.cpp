@@ -13,12 +13,14 @@ namespace walr {
 namespace {
 
 /// Declare what every pass of the filter reads.
+/// @param lobes  in place of shading normals, or not valid
 fg::PassBuilder filterPass(StageGraph graph, std::string name, const fg::Shader& shader, fg::Buffer frame,
-                           fg::Texture colour, const Guides& guides, const SvgfFilterSettings& settings) {
+                           fg::Texture colour, const Guides& guides, const SvgfFilterSettings& settings,
+                           fg::Texture lobes = {}) {
   fg::PassBuilder pass = graph.compute(std::move(name), shader);
   pass.uniform("frameConstants", frame)
       .sample("depth", guides.depth)
-      .sample("shadingNormal", guides.shadingNormal)
+      .sample(lobes.valid() ? "lobes" : "shadingNormal", lobes.valid() ? lobes : guides.shadingNormal)
       .sample("geometricNormal", guides.geometricNormal)
       .sample("colour", colour)
       .constants(SvgfFilterConstants{1.0F / settings.sigmaDepth, settings.sigmaNormal, settings.sigmaLuminance,
@@ -119,7 +121,7 @@ fg::Texture addSvgfSingleFrameVariance(StageGraph graph, fg::Buffer frame, fg::T
 }
 
 fg::Texture addSvgfAtrous(StageGraph graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
-                          fg::Texture feedback, const SvgfFilterSettings& settings) {
+                          fg::Texture lobes, fg::Texture feedback, const SvgfFilterSettings& settings) {
   const std::vector<Kernel> kernels = kernelsOf(settings);
   if (settings.feedback > kernels.size()) {
     throw std::invalid_argument("svgf.feedback (" + std::to_string(settings.feedback) +
@@ -128,16 +130,18 @@ fg::Texture addSvgfAtrous(StageGraph graph, fg::Buffer frame, fg::Texture colour
                                      ? ": svgf.window=full is one; lower svgf.feedback or set svgf.window=atrous"
                                      : ""));
   }
+  if (settings.lobeShare == 0.0F) lobes = {};
   for (std::size_t i = 0; i < kernels.size(); ++i) {
     const std::string number = std::to_string(i);
     const Kernel& kernel = kernels[i];
     const bool tiled = fitsTile(kernel);
     fg::PassBuilder pass =
-        filterPass(graph, "svgf a-trous " + number, tiled ? shaders::svgfAtrous : shaders::svgfAtrousWindow, frame,
-                   colour, guides, settings);
+        filterPass(graph, "svgf a-trous " + number, shaders::svgfAtrous({.window = !tiled, .specular = lobes.valid()}),
+                   frame, colour, guides, settings, lobes);
     pass.specialize("kRadius", kernel.radius)
         .specialize("kSpacing", kernel.spacing)
         .specialize("kLuminanceWeight", settings.luminanceWeight);
+    if (lobes.valid()) pass.specialize("kLobeShare", settings.lobeShare);
     if (tiled) {
       pass.dispatch(tileThreads(graph.textureDesc(colour).extent, kernel.spacing));
     } else {

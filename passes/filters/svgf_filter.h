@@ -28,6 +28,7 @@ struct SvgfFilterSettings {
   bool luminanceWeight = true;
   float sigmaLuminance = 4.0F;
   float minHistory = 4.0F;
+  float lobeShare = 0.7F;
   std::uint32_t feedback = 0;
 
   void visit(SettingVisitor& v) {
@@ -57,6 +58,10 @@ struct SvgfFilterSettings {
     v.visit({"svgf.min-history", "Samples below which the variance is estimated over 7x7 pixels", "frames", 0.0, 256.0,
              "Schied et al. 2017, 4.2"},
             minHistory);
+    v.visit({"svgf.lobe-share",
+             "Specular light: part of the lobe's half angle at which a pixel weighs exp(-1/2); 0: normals weigh alone",
+             "", 0.0, 10.0, "measured"},
+            lobeShare);
     v.visit({"svgf.feedback", "Iterations whose result is the next frame's colour history; at most all of them", "", 0,
              8, "Schied et al. 2017, 4.3: 1"},
             feedback);
@@ -75,12 +80,14 @@ fg::Texture addSvgfSingleFrameVariance(StageGraph graph, fg::Buffer frame, fg::T
 
 /// Edge-avoiding a-trous iterations guided by variance, or the bilateral filter that they approximate.
 /// @param colour   RGBA16F: radiance and standard deviation, from one of the above
+/// @param lobes    `SvgfAccumulated::lobes`, or not valid; they weigh in place of normals unless `settings.lobeShare`
+/// is 0
 /// @param feedback RGBA16F texture for the result of iteration number `settings.feedback`, counted from 1
 /// @returns RGBA16F: filtered radiance and its standard deviation; sky and pixels without a diffuse lobe hold the
 /// pass-through
 /// @throws std::invalid_argument where `settings.feedback` exceeds the number of iterations, or where the iterations
 ///         reach too far for a full window
 fg::Texture addSvgfAtrous(StageGraph graph, fg::Buffer frame, fg::Texture colour, const Guides& guides,
-                          fg::Texture feedback, const SvgfFilterSettings& settings = {});
+                          fg::Texture lobes, fg::Texture feedback, const SvgfFilterSettings& settings = {});
 
 }  // namespace walr

@@ -153,7 +153,7 @@ constexpr std::array kMethods{
     Method{"refwlr", "The reference of walr_paper: regression over the full window, seconds a frame",
            make<RefwlrSettings, addRefwlr>},
     Method{"bmfr", "Blockwise Multi-Order Feature Regression", make<BmfrSettings, addBmfr>, true},
-    Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>},
+    Method{"svgf", "Spatiotemporal Variance-Guided Filtering", make<SvgfSettings, addSvgf>, false, true, true},
     Method{"flr", "Fast Local Regression over downsampled moments", make<FlrSettings, addFlr>, true},
     Method{"flnr", "FLR with guides from a small network: experimental", make<FlnrSettings, addFlnr>},
     Method{"joint_bilateral", "Joint bilateral filter with temporal accumulation",

@@ -6,6 +6,7 @@
 #include "passes/guides/prepare_guides.h"
 #include "passes/settings/settings.h"
 #include "passes/stage/stage_graph.h"
+#include "passes/temporal/reflection_motion.h"
 
 namespace walr {
 
@@ -13,6 +14,7 @@ namespace walr {
 struct SvgfAccumulationSettings {
   float maxHistory = 8.0F;
   float maxMomentHistory = 5.0F;
+  float maxSpecularHistory = 4.0F;
   HistoryThresholds thresholds{.planeTolerance = kStrictThresholds.planeTolerance};
 
   void visit(SettingVisitor& v) {
@@ -22,21 +24,29 @@ struct SvgfAccumulationSettings {
     v.visit({"accumulation.max-moment-history", "Frames after which the luminance moments turn exponential", "frames",
              1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},
             maxMomentHistory);
+    v.visit({"accumulation.max-specular-history", "Specular light: `accumulation.max-history`", "frames", 1.0, 255.0,
+             "measured"},
+            maxSpecularHistory);
     visitThresholds(v, "accumulation.plane-tolerance", "accumulation.normal-threshold", thresholds);
   }
 };
 
 /// The result of SVGF's temporal accumulation.
 struct SvgfAccumulated {
-  fg::Texture colour;   ///< RGBA16F: mean radiance; sky and pixels without a diffuse lobe hold the pass-through.
-  fg::Texture moments;  ///< RGBA16F: mean of the luminance, its standard deviation, history length; 0 where none.
+  fg::Texture colour;  ///< RGBA16F: mean radiance; sky and pixels without a diffuse lobe hold the pass-through.
+  /// RGBA16F: mean of the luminance, its standard deviation, history length; 0 where none. Specular light: view depth
+  /// over the mean distance of what is reflected.
+  fg::Texture moments;
+  fg::Texture lobes = {};  ///< Of specular light only. R32G32_UINT: see shaders/conventions/lobe.glsl.
 };
 
 /// Average colour and luminance moments over time along the motion.
 /// @param previousColour RGBA16F: the colour's history
 /// @param colour         RGBA16F texture to write the mean colour to
+/// @param reflection     of specular light, which it makes follow; the inputs' confidence is then not read
 SvgfAccumulated addSvgfAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture previousColour, fg::Texture colour,
-                                    const SvgfAccumulationSettings& settings = {});
+                                    const SvgfAccumulationSettings& settings = {},
+                                    const ReflectionMotion& reflection = {});
 
 }  // namespace walr

@@ -29,11 +29,15 @@ Surface surfaceOf(ivec2 p, float z, vec3 geometricNormal, vec3 shadingNormal) {
                  geometricNormal.xy * frame.rayFromPixel.xy * (plane.inverseDepth * scale));
 }
 
-// log2(W_Z W_N) of the pixel `d` away. As sums of exponents, all weights of a tap take one exponential. W_Z uses the
-// distance from the tangent plane, which is the difference in depth beyond the depth gradient: it is 1 everywhere on a
-// plane.
+// -log2(W_Z) of the pixel `d` away: the distance from the tangent plane, which is the difference in depth beyond the
+// depth gradient. W_Z is 1 everywhere on a plane.
+float distanceFrom(Surface surface, vec2 d, float z) {
+  return abs(z * (surface.perDepth + surface.slope.y * d.y + surface.slope.x * d.x) - surface.offset);
+}
+
+// log2(W_Z W_N). As sums of exponents, all weights of a tap take one exponential.
 float surfaceExponent(Surface surface, vec2 d, float z, vec3 normal) {
-  const float distance = abs(z * (surface.perDepth + surface.slope.y * d.y + surface.slope.x * d.x) - surface.offset);
+  const float distance = distanceFrom(surface, d, z);
   const float cosine = clamp(dot(surface.normal, normal), 1e-6, 1.0);
   return constants.sigmaNormal * log2(cosine) - distance;
 }

@@ -1,6 +1,7 @@
 // SVGF, one edge-avoiding a-trous iteration (Schied et al. 2017, 4.3 and 4.4; Fu 2022): a binomial kernel with taps 2^i
 // pixels apart, weighted by plane distance (W_Z), normal (W_N) and luminance (W_L). It also filters the variance that
 // guides W_L. A work group keeps what its taps read in shared memory (svgf_taps.glsl).
+// SPECULAR: lobes take the place of normals (svgf_lobe.glsl).
 // WINDOW: reads every tap from the textures, for windows too large for shared memory. With a Gaussian kernel in place
 // of the binomial one it is the bilateral filter that the iterations approximate.
 #version 460
@@ -28,13 +29,20 @@ layout(constant_id = 3) const float kGaussianFalloff = 0.0;  // exp(-falloff d^2
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
+#ifdef SPECULAR
+uniform utexture2D lobes;
+#else
 uniform utexture2D shadingNormal;
+#endif
 uniform utexture2D geometricNormal;
 uniform texture2D colour;  // rgb: radiance; a: standard deviation of its luminance.
 layout(rgba16f) uniform writeonly image2D outColour;
 layout(push_constant) uniform PushConstants { SvgfFilterConstants constants; };
 
 #include "filters/svgf.glsl"
+#ifdef SPECULAR
+#include "filters/svgf_lobe.glsl"
+#endif
 #include "filters/svgf_taps.glsl"
 
 // Standard deviation at `p` from the variance smoothed by a 3 x 3 Gaussian over the pixels that have one.
@@ -96,7 +104,12 @@ void main() {
     return;
   }
 
+#ifdef SPECULAR
+  const Surface surface = surfaceOf(p, z, unpackLongNormal(geometric), vec3(0.0));
+  const Reflection reflection = reflectionOf(p, z, tapAt(p, ivec2(0)).lobe, centre.a >= 0.0);
+#else
   const Surface surface = surfaceOf(p, z, unpackLongNormal(geometric), tapAt(p, ivec2(0)).normal);
+#endif
   const float centreLuminance = luminance(centre.rgb);
   const float falloff = luminanceFalloff(p, centre);
   Filtered filtered = Filtered(vec3(0.0), 0.0, 0.0);
@@ -111,8 +124,14 @@ void main() {
       const float kernel = log2(tapX);
 #endif
       const float difference = abs(luminance(tap.colour.rgb) - centreLuminance);
-      add(filtered, tap,
-          kernel + surfaceExponent(surface, kSpacing * vec2(x, y), tap.z, tap.normal) - difference * falloff);
+      const vec2 offset = kSpacing * vec2(x, y);
+#ifdef SPECULAR
+      const float guides =
+          lobeExponent(reflection, offset, tap.z, tap.lobe) - distanceFrom(surface, offset, tap.z);
+#else
+      const float guides = surfaceExponent(surface, offset, tap.z, tap.normal);
+#endif
+      add(filtered, tap, kernel + guides - difference * falloff);
       tapX = nextTap(tapX, x);
     }
     tapY = nextTap(tapY, y);

@@ -1,6 +1,7 @@
 // What an a-trous iteration of SVGF reads of the pixels around.
 // Needs: `depth`, `shadingNormal` (utexture2D), `colour` (texture2D), kRadius, kSpacing;
 // GL_EXT_control_flow_attributes.
+// SPECULAR: reads `lobes` (lobe.glsl) instead of `shadingNormal`.
 // WINDOW: reads every tap from the textures. Else a work group reads each pixel once and keeps it in shared memory.
 #ifndef WALR_SVGF_TAPS_GLSL
 #define WALR_SVGF_TAPS_GLSL
@@ -8,7 +9,11 @@
 
 struct Tap {
   float z;  // 0 where the tap does not count: outside the image, without a surface or without a sample.
+#ifdef SPECULAR
+  Lobe lobe;
+#else
   vec3 normal;
+#endif
   vec4 colour;  // 0 where the tap does not count.
 };
 
@@ -16,10 +21,14 @@ struct Tap {
 Tap readTap(ivec2 q) {
   const ivec2 inside = clamp(q, ivec2(0), textureSize(depth, 0) - 1);
   const float z = unpackDepth(texelFetch(depth, inside, 0).x);
-  const uint normal = texelFetch(shadingNormal, inside, 0).x;
+#ifdef SPECULAR
+  const Lobe guide = unpackLobe(texelFetch(lobes, inside, 0).xy);
+#else
+  const vec3 guide = unpackLongNormal(texelFetch(shadingNormal, inside, 0).x);
+#endif
   const vec4 light = texelFetch(colour, inside, 0);
   const bool counts = q == inside && z > 0.0 && light.a >= 0.0;
-  return Tap(counts ? z : 0.0, unpackLongNormal(normal), counts ? light : vec4(0.0));
+  return Tap(counts ? z : 0.0, guide, counts ? light : vec4(0.0));
 }
 
 #ifdef WINDOW
@@ -39,7 +48,10 @@ const int kTilePixels = kTileSide * kTileSide;
 const uint kThreads = uint(kGroupSide * kGroupSide);
 const uint kReads = (uint(kTilePixels) + kThreads - 1u) / kThreads;  // Of a thread.
 
-shared vec4 tileSurface[kTilePixels];  // Shading normal, depth.
+shared vec4 tileSurface[kTilePixels];  // Shading normal or direction of the lobe, depth.
+#ifdef SPECULAR
+shared uint tileLobe[kTilePixels];  // Its other values, as two halves.
+#endif
 shared uvec2 tileColour[kTilePixels];  // As four halves.
 
 // Pixel at a place in the tile. Place 0 is the first pixel that the group filters.
@@ -61,7 +73,12 @@ void prepareTaps() {
   [[unroll]] for (uint i = 0u; i < kReads; ++i) {
     const uint index = gl_LocalInvocationIndex + i * kThreads;
     if (index >= uint(kTilePixels)) break;
+#ifdef SPECULAR
+    tileSurface[index] = vec4(taps[i].lobe.direction, taps[i].z);
+    tileLobe[index] = packHalf2x16(vec2(taps[i].lobe.angle, taps[i].lobe.nearness));
+#else
     tileSurface[index] = vec4(taps[i].normal, taps[i].z);
+#endif
     tileColour[index] = uvec2(packHalf2x16(taps[i].colour.rg), packHalf2x16(taps[i].colour.ba));
   }
   barrier();
@@ -73,7 +90,13 @@ Tap tapAt(ivec2 p, ivec2 tap) {
   const uint index = first + (place.y * uint(kTileSide) + place.x);
   const vec4 surface = tileSurface[index];
   const uvec2 light = tileColour[index];
-  return Tap(surface.w, surface.xyz, vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y)));
+#ifdef SPECULAR
+  const vec2 values = unpackHalf2x16(tileLobe[index]);
+  const Lobe guide = Lobe(surface.xyz, values.x, values.y);
+#else
+  const vec3 guide = surface.xyz;
+#endif
+  return Tap(surface.w, guide, vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y)));
 }
 #endif
 

@@ -41,6 +41,7 @@ layout(push_constant) uniform PushConstants {
 
 #define KEEP_TAPS
 #define HISTORY previousReflector
+#include "conventions/lobe.glsl"
 #include "temporal/confidence.glsl"
 #include "temporal/mirror_image.glsl"
 #include "temporal/reprojection.glsl"
@@ -62,15 +63,11 @@ struct Reflector {
   float roughness;
 };
 
-float roughnessAt(ivec2 p) {
-  const float r = texelFetch(roughness, p, 0).x;
-  return isFinite(r) ? clamp(r, 0.0, 1.0) : 1.0;
-}
-
 // Of this frame. `z`: its depth.
 Reflector reflectorAt(ivec2 p, float z) {
   return Reflector(rayThrough(frame.rayFromPixel, pixelCentre(p)) * z, unpackLongNormal(packedGeometricNormalAt(p)),
-                   unpackLongNormal(texelFetch(shadingNormal, p, 0).x), roughnessAt(p));
+                   unpackLongNormal(texelFetch(shadingNormal, p, 0).x),
+                   validRoughness(texelFetch(roughness, p, 0).x));
 }
 
 // Whether two points with their geometric normals lie on one surface. The mean of the normals is perpendicular to the
@@ -224,9 +221,6 @@ vec2 newtonStep(Before b, vec3 object) {
   const vec2 step = vec2(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
   return step * min(1.0, kLongestNewtonStep * inversesqrt(max(dot(step, step), 1e-20)));
 }
-
-// Half angle of the lobe about the mirror direction, radians.
-float lobeAngle(float r) { return 2.0 * atan(r * r); }
 
 // The place of a pixel's reflected light in the previous frame.
 struct ReflectionMotion {

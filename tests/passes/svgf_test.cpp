@@ -1,7 +1,11 @@
 // SVGF's passes on a device agree with the double-precision reference. The reference of each pass starts from the
 // device's own results of the pass before, so that no error is carried from pass to pass.
 #include <cmath>
+#include <memory>
 #include <string>
+#include <vector>
+
+#include <glm/gtc/packing.hpp>
 
 #include "passes/methods/svgf.h"
 #include "tests/error_text.h"
@@ -74,7 +78,7 @@ class SvgfTest : public fg::test::GpuTest {
   FilterRun atrous(const SvgfFilterSettings& settings) {
     return {device(), kSize, 1,
             [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const std::vector<fg::Texture>& inputs) {
-              return addSvgfAtrous(graph, frame, inputs[0], guides, {}, settings);
+              return addSvgfAtrous(graph, frame, inputs[0], guides, {}, {}, settings);
             }};
   }
 };
@@ -94,6 +98,33 @@ void expectDeviations(const Image<glm::dvec4>& result, const Image<SvgfPixel>& e
                           reference::kSmallestHalf * reference::kSmallestHalf;
     expectNear(result[p].w * result[p].w, variance, arithmetic * expected[p].secondMoment + stored, p, "variance");
   });
+}
+
+/// Whether the texels of accumulated colour and moments agree with the reference.
+void expectMoments(glm::dvec4 colour, glm::dvec4 moments, const SvgfMoments& m, glm::ivec2 p) {
+  const double arithmetic = 64.0 * kFloatRoundoff;
+  for (int c = 0; c < 3; ++c) {
+    expectNear(colour[c], m.colour[c],
+               m.colourError[c] + arithmetic * std::abs(m.colour[c]) + halfTolerance(m.colour[c], 0.0), p, "colour");
+  }
+  expectNear(moments.x, m.mean, m.momentError.x + arithmetic * m.mean + halfTolerance(m.mean, 0.0), p, "mean");
+  expectNear(moments.z, m.samples, m.momentError.w + arithmetic * m.samples + halfTolerance(m.samples, 0.0), p,
+             "samples");
+  expectNear(moments.w, m.nearness, m.momentError.z + arithmetic * m.nearness + halfTolerance(m.nearness, 0.0), p,
+             "nearness");
+  const double stored = 2.0 * std::sqrt(m.variance()) * halfTolerance(std::sqrt(m.variance()), 0.0);
+  const double difference = m.momentError.y + 2.0 * m.mean * m.momentError.x + arithmetic * m.square;
+  expectNear(moments.y * moments.y, m.variance(), stored + difference, p, "variance");
+}
+
+/// A device's stored moments, converted to the raw ones that the reference reads.
+Image<glm::dvec4> rawMoments(const Image<glm::dvec4>& moments) {
+  Image<glm::dvec4> raw(moments.size());
+  forEachPixel(moments.size(), [&](glm::ivec2 p) {
+    const glm::dvec4 m = moments[p];
+    raw[p] = {m.x, m.y * m.y + m.x * m.x, m.w, m.z};
+  });
+  return raw;
 }
 
 TEST_F(SvgfTest, AccumulationAgreesWithRawMoments) {
@@ -122,34 +153,115 @@ TEST_F(SvgfTest, AccumulationAgreesWithRawMoments) {
       uploadPrevious(run, guides, history.guides.size() == kSize ? history.guides : Image<Guide>(kSize));
       run.frame();
       const Image<glm::dvec4> colours = readHalves(run, colourOut, kSize);
-      Image<glm::dvec4> moments = readHalves(run, momentsOut, kSize);
+      const Image<glm::dvec4> moments = readHalves(run, momentsOut, kSize);
       const Image<SvgfMoments> expected = reference::svgfAccumulate(frame, guideValues, history);
       forEachPixel(kSize, [&](glm::ivec2 p) {
-        const SvgfMoments& m = expected[p];
-        undecided += m.undecided ? 1 : 0;
+        undecided += expected[p].undecided ? 1 : 0;
         ++compared;
-        if (m.undecided) return;
-        const double arithmetic = 64.0 * kFloatRoundoff;
-        for (int c = 0; c < 3; ++c) {
-          expectNear(colours[p][c], m.colour[c],
-                     m.colourError[c] + arithmetic * std::abs(m.colour[c]) + halfTolerance(m.colour[c], 0.0), p,
-                     "colour");
-        }
-        expectNear(moments[p].x, m.mean, m.momentError.x + arithmetic * m.mean + halfTolerance(m.mean, 0.0), p, "mean");
-        expectNear(moments[p].z, m.samples, m.momentError.w + arithmetic * m.samples + halfTolerance(m.samples, 0.0), p,
-                   "samples");
-        const double stored = 2.0 * std::sqrt(m.variance()) * halfTolerance(std::sqrt(m.variance()), 0.0);
-        const double difference = m.momentError.y + 2.0 * m.mean * m.momentError.x + arithmetic * m.square;
-        expectNear(moments[p].y * moments[p].y, m.variance(), stored + difference, p, "variance");
+        if (!expected[p].undecided) expectMoments(colours[p], moments[p], expected[p], p);
       });
-      // The device's stored history, converted to the raw moments that the reference reads.
-      forEachPixel(kSize, [&](glm::ivec2 p) {
-        const glm::dvec4 m = moments[p];
-        moments[p] = {m.x, m.y * m.y + m.x * m.x, 0.0, m.z};
-      });
-      history = {guideValues, colours, moments};
+      history = {guideValues, colours, rawMoments(moments)};
     }
     EXPECT_LT(undecided, compared / 50) << "too few pixels are left to compare";
+  }
+}
+
+/// A frame of specular light. Where the distance is 0 or NaN there is no sample.
+HostFrame specularFrame(const Scene& scene, std::uint32_t index) {
+  HostFrame frame = renderStill(scene, kSize, index);
+  frame.conventions.specular = true;
+  frame.lightAlpha = Image<double>(kSize);
+  frame.roughness = Image<double>(kSize);
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    const double distances[]{0.0, 1e-4, 0.5, 4.0, 60000.0, INFINITY, NAN};
+    frame.lightAlpha[p] = reference::roundToHalf(distances[(p.x / 2 + p.y + 3 * int(index)) % 7]);
+    const int roughness[]{0, 25, 51, 102, 255};
+    frame.roughness[p] = roughness[(p.x / 9 + p.y / 8) % 5] / 255.0;
+  });
+  return frame;
+}
+
+/// SVGF's accumulation of specular light and one iteration of its filter, on given taps and a given colour.
+class SpecularRun {
+ public:
+  SpecularRun(const fg::test::TestDevice& device, const SvgfFilterSettings& settings)
+      : inputs_(importInputs(graph_, kSize, {.specular = true})),
+        guides_(importGuides(graph_, kSize)),
+        colour_(importHalves(graph_, "colour to filter", kSize)) {
+    const fg::Extent extent = graph_.textureDesc(inputs_.lighting).extent;
+    reflection_.taps = graph_.import("taps", {VK_FORMAT_R32_UINT, extent}, fg::vk::kUploaded);
+    reflection_.confidence = graph_.import("confidences", {VK_FORMAT_R8_UNORM, extent}, fg::vk::kUploaded);
+    const fg::History colour = graph_.history("colour", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
+    const SvgfAccumulated accumulated =
+        addSvgfAccumulation(graph_, inputs_, guides_, colour.previous, colour.current, {}, reflection_);
+    colourOut_ = copyOut(graph_, "colour out", accumulated.colour);
+    momentsOut_ = copyOut(graph_, "moments out", accumulated.moments);
+    filteredOut_ = copyOut(graph_, "filtered out",
+                           addSvgfAtrous(graph_, inputs_.frame, colour_, guides_, accumulated.lobes, {}, settings));
+    run_ = std::make_unique<GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
+  }
+  void frame(const HostFrame& frame, const Image<Guide>& guides, const reference::SvgfReflection& reflection,
+             const Image<glm::dvec4>& toFilter) {
+    std::vector<std::uint32_t> taps;
+    std::vector<std::uint8_t> confidences;
+    forEachPixel(kSize, [&](glm::ivec2 p) {
+      // Accept bits in the lowest two bits of each half (history_taps.glsl).
+      const std::uint32_t accepted = reflection.accepted[p];
+      taps.push_back((glm::packHalf2x16(glm::vec2(reflection.motion)) & 0xfffcfffcU) | (accepted & 3U) |
+                     ((accepted >> 2U) << 16U));
+      confidences.push_back(static_cast<std::uint8_t>(std::lround(255.0 * reflection.confidence[p])));
+    });
+    run_->fill(reflection_.taps, taps);
+    run_->fill(reflection_.confidence, confidences);
+    upload(*run_, inputs_, frame);
+    upload(*run_, guides_, guides);
+    upload(*run_, colour_, toFilter);
+    run_->frame();
+  }
+  [[nodiscard]] Image<glm::dvec4> colours() const { return readHalves(*run_, colourOut_, kSize); }
+  [[nodiscard]] Image<glm::dvec4> moments() const { return readHalves(*run_, momentsOut_, kSize); }
+  [[nodiscard]] Image<glm::dvec4> filtered() const { return readHalves(*run_, filteredOut_, kSize); }
+
+ private:
+  fg::Graph graph_;
+  DenoiserInputs inputs_;
+  Guides guides_;
+  fg::Texture colour_;
+  ReflectionMotion reflection_;
+  fg::Texture colourOut_;
+  fg::Texture momentsOut_;
+  fg::Texture filteredOut_;
+  std::unique_ptr<GraphRun> run_;
+};
+
+/// Some taps, and confidences in steps of 1/255.
+reference::SvgfReflection someReflection() {
+  reference::SvgfReflection reflection{{0.75, -1.5}, Image<std::uint32_t>(kSize), Image<double>(kSize)};
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    reflection.confidence[p] = (p.x + 2 * p.y) % 3 == 0 ? 51.0 / 255.0 : 1.0;
+    for (int i = 0; i < 4; ++i) {
+      const glm::ivec2 tap = glm::ivec2(glm::floor(glm::dvec2(p) + reflection.motion)) + glm::ivec2(i % 2, i / 2);
+      const bool inside = tap.x >= 0 && tap.y >= 0 && tap.x < kSize.x && tap.y < kSize.y;
+      if (inside && uniform(p, 20 + static_cast<std::uint32_t>(i)) < 0.8) reflection.accepted[p] |= 1U << i;
+    }
+  });
+  return reflection;
+}
+
+TEST_F(SvgfTest, SpecularLightFollowsItsTaps) {
+  SpecularRun run(device(), {.iterations = 1});
+  const reference::SvgfReflection reflection = someReflection();
+  reference::SvgfHistory history;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    HostFrame frame = specularFrame(skyBesideSurface(), i);
+    frame.lighting[{7, 9}].x = NAN;
+    const Image<Guide> guides = guidesOf(frame);
+    run.frame(frame, guides, reflection, Image<glm::dvec4>(kSize));
+    const Image<glm::dvec4> colours = run.colours();
+    const Image<glm::dvec4> moments = run.moments();
+    const Image<SvgfMoments> expected = reference::svgfAccumulate(frame, guides, history, {}, reflection);
+    forEachPixel(kSize, [&](glm::ivec2 p) { expectMoments(colours[p], moments[p], expected[p], p); });
+    history = {guides, colours, rawMoments(moments)};
   }
 }
 
@@ -232,6 +344,57 @@ TEST_F(SvgfTest, EveryIterationAgreesWithTheReference) {
       previous[s] = result;
     }
   }
+}
+
+/// Largest relative error of a product of weights with the lobe of half angle `angle`. Its direction is stored in two
+/// coordinates of 16 bits, whose rounding, the half steps of both, turns it by up to 2^-15 sqrt(2) radians, that of two
+/// pixels by twice as much. With a turn of t over the unit u, weight times error, t / u exp(-t^2 / 2 u^2) / u, is at
+/// most exp(-1/2) / u.
+double lobeWeightError(const SvgfFilterSettings& settings, double angle) {
+  const double unit = std::max(double(settings.lobeShare) * angle, 1e-4);
+  return std::exp(-0.5) * (2.0 * 0x1p-15 * std::sqrt(2.0) + 32.0 * kFloatRoundoff) / unit;
+}
+
+TEST_F(SvgfTest, LobesWeighAsTheReferenceSays) {
+  for (const std::uint32_t radius : {2U, 3U}) {
+    const SvgfFilterSettings settings{.iterations = 1, .radius = radius};
+    SpecularRun run(device(), settings);
+    const reference::SvgfReflection none{{}, Image<std::uint32_t>(kSize), Image<double>(kSize)};
+    for (const auto& [name, scene] : allScenes()) {
+      SCOPED_TRACE(std::string(name) + ", radius " + std::to_string(radius));
+      const HostFrame frame = specularFrame(scene, 0);
+      const Image<Guide> guides = guidesOf(frame);
+      const Image<glm::dvec4> colours = someColours(guides);
+      run.frame(frame, guides, none, colours);
+      const Image<glm::dvec4> result = run.filtered();
+      const auto lobes = svgfLobes(frame, guides, reference::svgfAccumulate(frame, guides, {}, {}, none));
+      const Image<SvgfPixel> expected = reference::svgfAtrous(frame, guides, pixelsOf(colours), 1, settings, lobes);
+      forEachPixel(kSize, [&](glm::ivec2 p) {
+        const SvgfPixel& e = expected[p];
+        const double error = 2.0 * (weightError(settings) + lobeWeightError(settings, lobes[p].angle));
+        for (int c = 0; c < 3; ++c) {
+          const double tolerance = std::min(error, 1.0) * e.spread[c] + 100.0 * kFloatRoundoff * e.colour[c] +
+                                   halfTolerance(e.colour[c], 0.0);
+          expectNear(result[p][c], e.colour[c], tolerance, p, "colour");
+        }
+      });
+    }
+  }
+}
+
+TEST_F(SvgfTest, AMirrorKeepsItsLight) {
+  SpecularRun run(device(), {.iterations = 1});
+  HostFrame frame = specularFrame(flatWall(), 0);
+  frame.roughness = Image<double>(kSize, 0.0);
+  const Image<Guide> guides = guidesOf(frame);
+  Image<glm::dvec4> colours = someColours(guides);
+  colours[{20, 15}] = {0.0, 0.0, 0.0, -1.0};
+  run.frame(frame, guides, {{}, Image<std::uint32_t>(kSize), Image<double>(kSize)}, colours);
+  const Image<glm::dvec4> result = run.filtered();
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    if (colours[p].w >= 0.0) expectNear(result[p].x, colours[p].x, halfTolerance(colours[p].x, 0.0), p, "light");
+  });
+  EXPECT_GT(result[glm::ivec2(20, 15)].x, 0.1) << "where there is no sample, neighbours lend theirs";
 }
 
 TEST_F(SvgfTest, EveryKernelSizeAgreesWithTheReference) {

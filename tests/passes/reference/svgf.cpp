@@ -13,18 +13,39 @@
 namespace walr::reference {
 namespace {
 
+/// Two pixels reflect the same light as far as their lobes cover the same points.
+/// @param sampled  whether p has a sample; if not, its lobe does not count
+double lobeWeight(const HostFrame& frame, const Image<Guide>& guides, const Image<Lobe>& lobes, glm::ivec2 p,
+                  glm::ivec2 q, const SvgfFilterSettings& settings, bool sampled) {
+  const auto position = [&](glm::ivec2 pixel) {
+    return rayThrough(frame.constants.rayFromPixel, pixelCentre(pixel)) * guides[pixel].depth;
+  };
+  const Lobe& own = lobes[p];
+  const Lobe& other = lobes[q];
+  // The point that the other lobe's middle meets, over its distance.
+  const glm::dvec3 way = other.direction + (position(q) - position(p)) * (own.nearness / guides[p].depth);
+  const double turn = glm::distance(glm::normalize(way), own.direction);
+  const double unit = std::max(double(settings.lobeShare) * own.angle, 1e-4);
+  // Mirrored directions turn twice as far as normals, and cos^s a is nearly exp(-s a^2 / 2).
+  const double inverseSquare = (sampled ? 1.0 / (unit * unit) : 0.0) + double(settings.sigmaNormal) / 4.0;
+  return std::exp(-0.5 * (turn * turn + std::pow(other.angle - own.angle, 2.0)) * inverseSquare);
+}
+
 /// Edge-stopping functions of depth and normal (Schied et al. 2017, 4.4) between two pixels, the depth one by distance
 /// from the plane of p; 0 where q has no surface.
+/// @param lobes  of specular light, whose weight takes the place of that of normals; else empty
+/// @param sampled  whether p has a sample
 double surfaceWeight(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p, glm::ivec2 q,
-                     const SvgfFilterSettings& settings) {
+                     const SvgfFilterSettings& settings, const Image<Lobe>& lobes = {}, bool sampled = true) {
   if (!guides.contains(q) || guides[q].depth == 0.0) return 0.0;
   const auto position = [&](glm::ivec2 pixel) {
     return rayThrough(frame.constants.rayFromPixel, pixelCentre(pixel)) * guides[pixel].depth;
   };
   const double distance = std::abs(glm::dot(guides[p].normal, position(q) - position(p))) / guides[p].depth;
+  const double byPlane = std::exp(-distance / double(settings.sigmaDepth));
+  if (!lobes.pixels().empty()) return byPlane * lobeWeight(frame, guides, lobes, p, q, settings, sampled);
   const double cosine = glm::dot(octahedralDecode(guides[p].features), octahedralDecode(guides[q].features));
-  return std::exp(-distance / double(settings.sigmaDepth)) *
-         std::pow(std::clamp(cosine, 1e-6, 1.0), double(settings.sigmaNormal));
+  return byPlane * std::pow(std::clamp(cosine, 1e-6, 1.0), double(settings.sigmaNormal));
 }
 
 double binomial(int n, int k) {
@@ -80,14 +101,41 @@ double kernelVariance(const SvgfFilterSettings& settings) {
   return double(settings.radius) / 2.0 * (std::pow(4.0, settings.iterations) - 1.0) / 3.0;
 }
 
+/// History taps that another stage has found.
+std::array<HistoryTap, 4> givenTaps(glm::dvec2 pixel, std::uint32_t accepted) {
+  const glm::dvec2 base = glm::floor(pixel - 0.5);
+  const glm::dvec2 fraction = pixel - 0.5 - base;
+  std::array<HistoryTap, 4> taps;
+  for (int i = 0; i < 4; ++i) {
+    const glm::ivec2 offset(i % 2, i / 2);
+    const glm::dvec2 weights = glm::mix(1.0 - fraction, fraction, glm::dvec2(offset));
+    taps.at(i) = {
+        .pixel = glm::ivec2(base) + offset, .weight = weights.x * weights.y, .matches = ((accepted >> i) & 1U) != 0U};
+  }
+  return taps;
+}
+
 }  // namespace
+
+Image<Lobe> svgfLobes(const HostFrame& frame, const Image<Guide>& guides, const Image<SvgfMoments>& moments) {
+  Image<Lobe> lobes(frame.size());
+  forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    if (guides[p].depth == 0.0) return;
+    const glm::dvec3 seen = glm::normalize(rayThrough(frame.constants.rayFromPixel, pixelCentre(p)));
+    const double r = frame.roughness[p];
+    lobes[p] = {glm::reflect(seen, octahedralDecode(guides[p].features)), roundToHalf(2.0 * std::atan(r * r)),
+                roundToHalf(moments[p].nearness)};
+  });
+  return lobes;
+}
 
 double SvgfMoments::variance() const {
   return std::max(square - mean * mean, 0.0);
 }
 
 Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& guides, const SvgfHistory& history,
-                                  const SvgfAccumulationSettings& settings) {
+                                  const SvgfAccumulationSettings& settings,
+                                  const std::optional<SvgfReflection>& reflection) {
   Image<SvgfMoments> result(frame.size());
   forEachPixel(frame.size(), [&](glm::ivec2 p) {
     SvgfMoments& out = result[p];
@@ -97,22 +145,31 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
       return;
     }
     if (!history.guides.pixels().empty()) {
-      const Reprojection r = reproject(frame, guides, p);
-      std::array<HistoryTap, 4> taps = historyTaps(frame, r, history.guides,
-                                                   {HistoryRejection::Plane, double(settings.thresholds.planeTolerance),
-                                                    double(settings.thresholds.normalThreshold)});
+      Reprojection r;
+      std::array<HistoryTap, 4> taps;
+      if (reflection) {
+        r = {.pixel = pixelCentre(p) + reflection->motion, .valid = true};
+        taps = givenTaps(r.pixel, reflection->accepted[p]);
+      } else {
+        r = reproject(frame, guides, p);
+        taps = historyTaps(frame, r, history.guides,
+                           {HistoryRejection::Plane, double(settings.thresholds.planeTolerance),
+                            double(settings.thresholds.normalThreshold)});
+      }
       for (HistoryTap& tap : taps) tap.matches = tap.matches && history.moments[tap.pixel].w > 0.0;
       const HistorySample colour = sampleHistory(r, taps, history.colour, {});
       const HistorySample moments = sampleHistory(r, taps, history.moments, {});
       out.colour = glm::dvec3(colour.value);
       out.mean = moments.value.x;
       out.square = moments.value.y;
+      out.nearness = moments.value.z;
       out.samples = moments.value.w;
       out.colourError = colour.error;
       out.momentError = moments.error;
       out.undecided = moments.undecided;
     }
-    if (!isFinite(noisy)) return;
+    if (reflection) out.samples = std::min(out.samples, double(settings.maxHistory) * reflection->confidence[p]);
+    if (!isFinite(noisy) || (reflection && !(frame.lightAlpha[p] > 0.0))) return;
     const glm::dvec3 radiance = glm::clamp(noisy, 0.0, kLargestHalf);
     const double l = luminance(radiance);
     out.samples = std::min(out.samples + 1.0, double(settings.maxHistory));
@@ -120,6 +177,9 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
     out.colour += (radiance - out.colour) / out.samples;
     out.mean += (l - out.mean) * momentAlpha;
     out.square += (l * l - out.square) * momentAlpha;
+    if (!reflection) return;
+    const double nearness = std::min(guides[p].depth / frame.lightAlpha[p], 1000.0);
+    out.nearness += (nearness - out.nearness) / out.samples;
   });
   return result;
 }
@@ -150,7 +210,7 @@ Image<SvgfPixel> svgfVariance(const HostFrame& frame, const Image<Guide>& guides
 }
 
 Image<SvgfPixel> svgfAtrous(const HostFrame& frame, const Image<Guide>& guides, const Image<SvgfPixel>& input,
-                            int spacing, const SvgfFilterSettings& settings) {
+                            int spacing, const SvgfFilterSettings& settings, const Image<Lobe>& lobes) {
   const bool full = settings.window == SvgfWindow::Full;
   int radius = static_cast<int>(settings.radius);
   if (full) radius *= (1 << settings.iterations) - 1;
@@ -170,7 +230,7 @@ Image<SvgfPixel> svgfAtrous(const HostFrame& frame, const Image<Guide>& guides, 
     for (int y = -radius; y <= radius; ++y) {
       for (int x = -radius; x <= radius; ++x) {
         const glm::ivec2 q = p + spacing * glm::ivec2(x, y);
-        double weight = surfaceWeight(frame, guides, p, q, settings);
+        double weight = surfaceWeight(frame, guides, p, q, settings, lobes, input[p].deviation >= 0.0);
         weight *= full ? std::exp(-0.5 * (x * x + y * y) / kernelVariance(settings))
                        : binomial(2 * radius, radius + x) * binomial(2 * radius, radius + y);
         if (weight == 0.0 || input[q].deviation < 0.0) continue;
