@@ -147,7 +147,7 @@ fg::Texture addNone(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
 
 constexpr std::array kMethods{
     Method{"walr", "Weighted A-Trous Linear Regression over blocks of pixels: the project's own method",
-           make<WalrSettings, addWalr>, true},
+           make<WalrSettings, addWalr>, true, true, true},
     Method{"walr_paper", "Weighted A-Trous Linear Regression over pixels, as published",
            make<WalrPaperSettings, addWalrPaper>, true},
     Method{"refwlr", "The reference of walr_paper: regression over the full window, seconds a frame",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "passes/regression/window_fit.h"
 #include "passes/stage/expected_error.h"
@@ -19,10 +20,11 @@ float wideningOf(const LightPattern& light, float power) {
 }
 
 BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t imageHeight,
-                                     const LightPattern& light) {
+                                     const InputConventions& conventions) {
+  const LightPattern& light = conventions.light;
   BlockRegressionSettings blocks = settings.blocks;
   // The share of accumulated light in a pixel is measured on this frame's sample and the history of the same pixel.
-  blocks.share.enabled = blocks.share.enabled && light.everyPixel() && !settings.spatialOnly;
+  blocks.share.enabled = blocks.share.enabled && (light.everyPixel() || conventions.specular) && !settings.spatialOnly;
   if (!settings.fitWindow) return blocks;
   const float widening = wideningOf(light, 1.0F / 6.0F);
   const auto height = static_cast<std::uint32_t>(widening * static_cast<float>(imageHeight));
@@ -39,13 +41,34 @@ std::optional<CurrentAntilag> antilagOf(const Accumulated& accumulated, const Te
   return CurrentAntilag{accumulated.antilag, settings.maxHistory};
 }
 
+GuideNeeds needsOf(const WalrSettings& settings, const TemporalPlan& plan) {
+  GuideNeeds needs = plan.guides;
+  needs.geometricNormal = true;
+  needs.occlusion = settings.occlusion;
+  return needs;
+}
+
+/// Guides and accumulated light of specular light.
+GuidedInput addReflectedLight(StageGraph graph, const DenoiserInputs& inputs, const WalrSettings& settings,
+                              const TemporalPlan& plan) {
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
+  const ReflectionMotion motion = addReflectionMotion(graph, inputs, guides, settings.accumulation, {}, true);
+  return {motion.blocks, addAccumulation(graph, inputs, guides, plan, motion)};
+}
+
 }  // namespace
 
 fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings) {
+  const bool specular = inputs.conventions.specular;
+  if (specular && !settings.blocks.share.enabled) {
+    throw std::invalid_argument(
+        "specular light needs accumulated light where it shows an image: leave blocks.residual on");
+  }
   TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
                                                   .antialiasing = settings.antialiasing,
-                                                  .spatialOnly = settings.spatialOnly});
-  BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
+                                                  .spatialOnly = settings.spatialOnly,
+                                                  .keepTaps = specular});
+  BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions);
   // Reconstruction with blocks.residual measures where history is too long. In the next frame, antilag then shortens
   // it, and anti-aliasing its own.
   std::optional<SteeredHistory> history;
@@ -54,10 +77,9 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
     plan.leastAntilag = history->leastAntilag.previous;
     plan.shortening = history->shortening.previous;
   }
-  GuideNeeds needs = plan.guides;
-  needs.geometricNormal = true;
-  needs.occlusion = settings.occlusion;
-  const auto [guides, accumulated] = addGuidesWithAccumulation(graph, inputs, settings.guides, needs, plan);
+  const auto [guides, accumulated] =
+      specular ? addReflectedLight(graph, inputs, settings, plan)
+               : addGuidesWithAccumulation(graph, inputs, settings.guides, needsOf(settings, plan), plan);
   // The coarse window's power is measured (passes/LEARNT.md, "Rays, sparse light and other normals"). Without a light
   // grid every pixel has a mean.
   if (settings.fitWindow && accumulated.lightGrid) {
@@ -75,7 +97,8 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
       addBlockReconstruction(graph, inputs.frame, light, guides, fits, filterTarget(graph, plan, output), blocks);
   const fg::Texture result = addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
   const bool packed = settings.accumulation.storage == LightStorage::Packed;
-  if (plan.accumulates && packed && !accumulated.lightGrid) offerExpectedError(graph, accumulated.lighting, result);
+  if (!specular && plan.accumulates && packed && !accumulated.lightGrid)
+    offerExpectedError(graph, accumulated.lighting, result);
   return result;
 }
 

@@ -84,6 +84,15 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
 }
 
+/// Whether features are those of specular light.
+bool isSpecular(const BlockGrid& grid, const Guides& guides) {
+  return guides.features.valid() && grid.graph->textureDesc(guides.features).format == VK_FORMAT_R32G32_UINT;
+}
+
+std::uint64_t bytesOfBlockFit(bool specular) {
+  return specular ? sizeof(StoredLobeFit) : sizeof(StoredBlockFit);
+}
+
 void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {
   static constexpr std::array kBindings{"moments0", "moments1", "moments2", "moments3", "moments4"};
   for (std::size_t i = 0; i < kBindings.size(); ++i) pass.sample(kBindings.at(i), averages.moments.at(i));
@@ -197,7 +206,8 @@ struct FineFit {
 };
 
 /// The fit of an edge-aware window around every block (Meunier & Harada 2022, 3.2).
-FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
+FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations,
+                   bool specular) {
   std::uint32_t spacing = 1;
   for (std::uint32_t t = 0;; ++t, spacing *= 3) {
     const auto declare = [&](const std::string& name, const fg::Shader& shader) {
@@ -211,15 +221,17 @@ FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture no
           .dispatch(grid.blocks);
       return pass;
     };
-    grid.graph.offer(blockIterationViews(), grid.pixels,
-                     [&](const std::string& name) { return declare(name, shaders::blockAtrousView); },
-                     {.index = t, .count = iterations});
+    grid.graph.offer(
+        blockIterationViews(), grid.pixels,
+        [&](const std::string& name) { return declare(name, shaders::blockAtrousView({.specular = specular})); },
+        {.index = t, .count = iterations});
     const bool last = t + 1 == iterations;
     const std::string suffix = " " + std::to_string(t);
-    fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
+    fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast({.specular = specular})
+                                                                  : shaders::blockAtrous({.specular = specular}));
     if (last) {
       return {
-          .fits = writeFits(grid, pass, grid.blocks, sizeof(StoredBlockFit), "block fits"),
+          .fits = writeFits(grid, pass, grid.blocks, bytesOfBlockFit(specular), "block fits"),
           .depth = pass.store("outDepth", grid.graph->texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}))};
     }
     averages = writeAverages(grid, pass, grid.blocks, suffix);
@@ -294,7 +306,7 @@ fg::PassBuilder declareMoments(const BlockGrid& grid, const BlockLight& light, c
   const bool packed = isPacked(grid, light.accumulated);
   fg::PassBuilder gather = readPixels(grid, light.lightGrid ? light.lightGrid->depth : guides.depth,
                                       light.lightGrid ? light.lightGrid->features : guides.features, "block moments",
-                                      shaders::blockMoments({.packed = packed}));
+                                      shaders::blockMoments({.packed = packed, .specular = isSpecular(grid, guides)}));
   gather.sample("accumulated", light.accumulated);
   // What stands in for an unread texture of colours is another one that is read. Beside packed light there is only the
   // lighting, which is therefore declared as read even without antilag.
@@ -326,7 +338,7 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
   const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, light);
-  if (sizeof(StoredBlockFit) * grid.blocks.width * grid.blocks.height > kLargestBuffer) {
+  if (bytesOfBlockFit(isSpecular(grid, guides)) * grid.blocks.width * grid.blocks.height > kLargestBuffer) {
     throw std::invalid_argument(
         "setting blocks.size of " + std::to_string(grid.size) + " makes " + std::to_string(grid.blocks.width) + " x " +
         std::to_string(grid.blocks.height) +
@@ -337,13 +349,14 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
   const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
   const fg::Texture normal =
       gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
-  const FineFit fine = addFineFit(grid, blocks, normal, settings.iterations);
+  const FineFit fine = addFineFit(grid, blocks, normal, settings.iterations, isSpecular(grid, guides));
   return {.fine = fine.fits, .coarse = addCoarseFit(grid, cells, fine.depth)};
 }
 
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                                    const BlockFits& fits, fg::Texture target, const BlockRegressionSettings& settings) {
   const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, light);
+  const bool specular = isSpecular(grid, guides);
   const bool readsPacked = isPacked(grid, light.accumulated);
   const bool writesPacked = lightStorageOf(graph->textureDesc(target).format) == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
@@ -355,15 +368,18 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
     return pass;
   };
   graph.offer(reconstructionViews(), grid.pixels, [&](const std::string& name) {
-    fg::PassBuilder pass = reconstruct(name, shaders::blockApplyView);
+    fg::PassBuilder pass = reconstruct(name, shaders::blockApplyView({.specular = specular}));
     readLightInView(grid, light, guides.depth, pass);
     return pass;
   });
-  graph.offerLightDirection([&](const std::string& name) { return reconstruct(name, shaders::blockApplyDirection); });
+  if (!specular)
+    graph.offerLightDirection([&](const std::string& name) { return reconstruct(name, shaders::blockApplyDirection); });
 
   const bool residual = addsResidual(light, settings);
-  const fg::Shader& shader = residual ? (writesPacked ? shaders::blockApplyResidualPacked : shaders::blockApplyResidual)
-                                      : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
+  const fg::Shader& shader =
+      residual ? (writesPacked ? shaders::blockApplyResidualPacked({.specular = specular})
+                               : shaders::blockApplyResidual({.specular = specular}))
+               : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply({.specular = specular}));
   fg::PassBuilder pass = reconstruct("block apply", shader);
   if (!writesPacked) {
     // Accumulated light that is not packed is never sparse: it has a texel for every pixel, which is 0 where a pixel

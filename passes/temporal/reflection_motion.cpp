@@ -29,7 +29,7 @@ const std::vector<ViewInfo>& reflectionViews() {
 
 ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                      const TemporalAccumulationSettings& settings,
-                                     const ReflectionMotionSettings& reflection) {
+                                     const ReflectionMotionSettings& reflection, bool blocks) {
   if (settings.rejection != HistoryRejection::Plane) {
     throw std::invalid_argument("specular light tests its history by plane: leave accumulation.rejection at plane");
   }
@@ -58,11 +58,16 @@ ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inp
   };
   graph.offer(reflectionViews(), extent,
               [&](const std::string& name) { return declare(name, shaders::reflectionMotionView); });
-  fg::PassBuilder pass = declare("reflection motion", shaders::reflectionMotion);
+  fg::PassBuilder pass =
+      declare("reflection motion", blocks ? shaders::reflectionMotionBlocks : shaders::reflectionMotion);
   ReflectionMotion result;
   result.taps = pass.store("outTaps", graph.texture("reflection taps", {VK_FORMAT_R32_UINT, extent}));
   result.confidence = pass.store("outConfidence", graph.texture("reflection confidence", {VK_FORMAT_R8_UNORM, extent}));
-  (void)pass.store("outReflector", reflectors.current);
+  const fg::Texture reflector = pass.store("outReflector", reflectors.current);
+  if (blocks) {
+    result.blocks.depth = pass.store("outDepth", graph.texture("reflection depth", {VK_FORMAT_R32_UINT, extent}));
+    result.blocks.features = reflector;
+  }
   return result;
 }
 

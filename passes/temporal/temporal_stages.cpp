@@ -48,7 +48,8 @@ TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStag
   if (plan.antialiases) plan.filtered = plan.antialiasing.storage;
   const bool reprojects = plan.accumulates && (!inputs.scene.still() || stages.keepTaps);
   if (!reprojects) return plan;
-  plan.sharesTaps = plan.antialiases && sharesReprojection(plan.antialiasing, plan.accumulation);
+  const bool givenMotion = inputs.conventions.specular;
+  plan.sharesTaps = plan.antialiases && (givenMotion || sharesReprojection(plan.antialiasing, plan.accumulation));
   plan.keepsTaps = plan.sharesTaps || stages.keepTaps;
   plan.guides = guidesOf(plan);
   return plan;
@@ -62,6 +63,14 @@ Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, cons
   }
   return withTaps(
       addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, tapsReader(plan), plan.leastAntilag));
+}
+
+Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                            const TemporalPlan& plan, const ReflectionMotion& motion) {
+  DenoiserInputs followed = inputs;
+  followed.confidence = motion.confidence;
+  return withTaps(addTemporalAccumulationWithTaps(graph, followed, guides, plan.accumulation, tapsReader(plan),
+                                                  plan.leastAntilag, motion.taps));
 }
 
 GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& inputs,

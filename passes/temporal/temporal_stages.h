@@ -8,6 +8,7 @@
 #include "passes/conventions/lighting_alpha.h"
 #include "passes/guides/prepare_guides.h"
 #include "passes/stage/stage_graph.h"
+#include "passes/temporal/reflection_motion.h"
 #include "passes/temporal/temporal_accumulation.h"
 #include "passes/temporal/temporal_antialiasing.h"
 
@@ -39,7 +40,7 @@ struct TemporalPlan {
 };
 
 /// Decide what the temporal stages do. Accumulation keeps its history taps if anti-aliasing would find the same ones,
-/// or if the filter reads a history of its own.
+/// as it must for specular light, or if the filter reads a history of its own.
 /// @throws std::invalid_argument if frames are filtered by themselves and not every pixel has a sample of light
 TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStages& stages);
 
@@ -55,6 +56,9 @@ struct Accumulated {
 /// Add temporal accumulation, if the plan has it.
 Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                             const TemporalPlan& plan);
+/// The same for specular light, along its own motion. The plan must accumulate.
+Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
+                            const TemporalPlan& plan, const ReflectionMotion& motion);
 
 /// The input of a spatial filter, and the guides beside it.
 struct GuidedInput {

@@ -7,7 +7,7 @@
 #ifndef WALR_SVGF_LOBE_GLSL
 #define WALR_SVGF_LOBE_GLSL
 #include "conventions/camera.glsl"
-#include "conventions/lobe.glsl"
+#include "conventions/packed_lobe.glsl"
 
 // Part of a lobe's half angle over which its weight falls to exp(-1/2).
 layout(constant_id = 4) const float kLobeShare = 1.0;

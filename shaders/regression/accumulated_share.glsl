@@ -7,6 +7,7 @@
 // most.
 // In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
 // pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
+// SPECULAR: narrow lobes stand for edges, and each pixel has a least share (lobe.glsl).
 // Most workgroups of light of one sample have no share. They do nothing in most frames (partOfWorkgroup).
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
 // stored_fit.glsl.
@@ -44,11 +45,20 @@ bool isAmongQuiet() {
   return bilinear(quiet, before - 0.5 - base) >= least;
 }
 
+#ifdef SPECULAR
+// Of this thread's pixel.
+float ownRoughness = 1.0;
+float leastShare = 0.0;  // Of accumulated light.
+#endif
+
 // What a workgroup does beside the prediction.
 const int kNothing = 0;
 const int kMeasures = 1;  // Adds shares to its pixels, and measures them.
 const int kSteers = 2;    // Measures innovations, too.
 int partOfWorkgroup() {
+#ifdef SPECULAR
+  return kSteers;  // Narrow lobes always have a share.
+#endif
   if (!isAmongQuiet()) return kSteers;
   if (!isMeasuredThoughQuiet(gl_WorkGroupID.xy, frame.frameIndex)) return kNothing;
   return haveQuietInnovations(frame.frameIndex) ? kSteers : kMeasures;
@@ -92,6 +102,15 @@ float accumulatedShare(vec2 statistics, float samples, float trust, float gain) 
   const float share = bestShare(statistics, samples, trust, gain);
   return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
 }
+#ifdef SPECULAR
+// The same with what the lobe of the pixel asks for.
+float shareOfLobe(vec2 statistics, float samples, float trust, float gain) {
+  return max(accumulatedShare(statistics, samples, trust, gain * residualGain(ownRoughness)), leastShare);
+}
+#define SHARE shareOfLobe
+#else
+#define SHARE accumulatedShare
+#endif
 
 // The residuals of a pixel, or their means over pixels.
 struct Residual {
@@ -268,7 +287,14 @@ struct FetchedLight {
 
 FetchedLight fetchLight(ivec2 p) {
   const TileLimits limits = kAntilag ? tileLimitsAt(antilag, vec2(p)) : kNoTileLimits;
+#ifdef SPECULAR
+  const vec4 light = texelFetch(lighting, p, 0);
+  // Where alpha is 0 there is no sample, and NaN is none, either.
+  const vec3 noisy = light.a > 0.0 ? light.rgb : vec3(uintBitsToFloat(0x7fc00000u));
+  return FetchedLight(accumulatedAt(p), noisy, limits);
+#else
   return FetchedLight(accumulatedAt(p), texelFetch(lighting, p, 0).rgb, limits);
+#endif
 }
 
 // The accumulated light of a pixel after the antilag of this frame, and its residual.
@@ -304,12 +330,15 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
     const SameSurface surface = sameSurfaceAs(shown);
     const Residual around = meanAround(surface, own.samples > 0.0, measured.edge);
+#ifdef SPECULAR
+    measured.edge = isNarrow(ownRoughness);  // In place of an edge.
+#endif
     const Statistics known = previousStatisticsAt(before, measured.edge);
     const vec3 detail = own.mean - around.mean;
     const float length = accumulated.mean.a;
     const float aroundGain = measured.edge ? constants.residualEdgeGain : constants.residualGain;
-    result += accumulatedShare(known.sums.xy, around.samples, known.trust, aroundGain) * around.mean;
-    result += accumulatedShare(known.sums.zw, length, known.trust, constants.residualGain) * detail;
+    result += SHARE(known.sums.xy, around.samples, known.trust, aroundGain) * around.mean;
+    result += SHARE(known.sums.zw, length, known.trust, constants.residualGain) * detail;
     if (own.samples > 0.0) {
       innovation = own.noisy - own.history;
       measured.light = vec2(luminance(shown.predicted), 1.0);

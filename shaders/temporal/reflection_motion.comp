@@ -5,6 +5,8 @@
 // The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
 // history (confidence.glsl).
 // Needs the geometric normal in a texture of its own. Tests history by plane.
+// BLOCKS: also writes what the regression over blocks reads: a depth with the geometric normal, and in the reflector the
+// mean distance of what is reflected.
 // VIEW: does the same work and writes its intermediate values.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -24,13 +26,16 @@ uniform utexture2D geometricNormal;
 uniform utexture2D shadingNormal;
 uniform usampler2D previousDepth;
 uniform usampler2D previousGeometricNormal;
-uniform utexture2D previousReflector;  // Shading normal, as in the guides; roughness in 16 bits.
+uniform utexture2D previousReflector;
 #ifdef VIEW
 layout(rgba32f) uniform writeonly image2D outView;
 #else
 layout(r32ui) uniform writeonly uimage2D outTaps;
 layout(r8) uniform writeonly image2D outConfidence;
 layout(rg32ui) uniform writeonly uimage2D outReflector;
+#ifdef BLOCKS
+layout(r32ui) uniform writeonly uimage2D outDepth;
+#endif
 #endif
 layout(push_constant) uniform PushConstants {
   ReflectionMotionConstants constants;
@@ -44,6 +49,7 @@ layout(push_constant) uniform PushConstants {
 #include "conventions/lobe.glsl"
 #include "temporal/confidence.glsl"
 #include "temporal/mirror_image.glsl"
+#include "conventions/reflector.glsl"
 #include "temporal/reprojection.glsl"
 
 const float kNewtonUpTo = 0.3;            // Roughness.
@@ -164,7 +170,7 @@ Before surfaceBefore(HistoryTaps taps, Reflector surface, bool valid) {
     const uvec2 reflector = texelFetch(previousReflector, q, 0).xy;
     positions[i] = rayThrough(frame.previousRayFromPixel, (vec2(q) + 0.5) * frame.pixelFromPreviousPixel) * z;
     normals[i] = unpackLongNormal(reflector.x);
-    const float rougher = float(reflector.y) / 65535.0 - surface.roughness;
+    const float rougher = roughnessOf(reflector) - surface.roughness;
     b.accepted[i] = valid && inside[i] && z > 0.0 && abs(rougher) <= kRoughnessTolerance &&
                     areOnOneSurface(surface.position, surface.plane, positions[i], plane);
   }
@@ -273,6 +279,35 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   return result;
 }
 
+#ifdef BLOCKS
+// The mean over time of what the samples of a pixel tell of the distance of what it reflects.
+ReflectedDistance meanDistance(ivec2 p, float z, ReflectionMotion m) {
+  HistoryTaps taps = tapsAround(p, m.motion, frame.previousPixelFromPixel);
+  taps.accepted = m.taps;
+  const vec4 weights = tapWeights(taps);
+  const ivec2 last = textureSize(previousReflector, 0) - 1;
+  ReflectedDistance mean = ReflectedDistance(0.0, 0.0);
+  float known = 0.0;
+  [[unroll]] for (int i = 0; i < 4; ++i) {
+    const ivec2 q = clamp(historyTap(taps, i), ivec2(0), last);
+    const ReflectedDistance tap = distanceOf(texelFetch(previousReflector, q, 0).xy);
+    const float weight = tap.frames > 0.0 ? weights[i] : 0.0;
+    mean.inverse += weight * tap.inverse;
+    mean.frames += weight * tap.frames;
+    known += weight;
+  }
+  const float scale = known > kLeastTapWeight ? 1.0 / known : 0.0;
+  mean.inverse *= scale;
+  mean.frames = min(scale * mean.frames, m.history);
+  const float distance = texelFetch(lighting, p, 0).a;
+  if (!(distance > 0.0)) return mean;
+  mean.frames = min(mean.frames + 1.0, constants.maxHistory);
+  const float inverse = distance < kLargestHalf ? z / max(distance, kLeastDistance * z) : 0.0;
+  mean.inverse += (inverse - mean.inverse) / mean.frames;
+  return mean;
+}
+#endif
+
 #ifdef VIEW
 vec3 viewOf(ivec2 p, Reflector own) {
   const ReflectionMotion m = reflectionMotionAt(p, own);
@@ -295,13 +330,21 @@ void main() {
     imageStore(outTaps, p, uvec4(kNoSurfaceTaps));
     imageStore(outConfidence, p, vec4(0.0));
     imageStore(outReflector, p, uvec4(0u));
+#ifdef BLOCKS
+    imageStore(outDepth, p, uvec4(0u));
+#endif
     return;
   }
   const Reflector own = reflectorAt(p, z);
   const ReflectionMotion m = reflectionMotionAt(p, own);
   imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
   imageStore(outConfidence, p, vec4(m.history / constants.maxHistory));
-  const uint packedRoughness = uint(own.roughness * 65535.0 + 0.5);
-  imageStore(outReflector, p, uvec4(texelFetch(shadingNormal, p, 0).x, packedRoughness, 0u, 0u));
+#ifdef BLOCKS
+  const ReflectedDistance distance = meanDistance(p, z, m);
+  imageStore(outDepth, p, uvec4(packDepthNormal(z, packShortNormal(own.plane))));
+#else
+  const ReflectedDistance distance = ReflectedDistance(0.0, 0.0);
+#endif
+  imageStore(outReflector, p, uvec4(packReflector(texelFetch(shadingNormal, p, 0).x, own.roughness, distance), 0u, 0u));
 #endif
 }

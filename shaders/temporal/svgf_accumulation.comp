@@ -53,7 +53,7 @@ layout(push_constant) uniform PushConstants {
 #include "temporal/confidence.glsl"
 #ifdef SPECULAR
 #include "conventions/camera.glsl"
-#include "conventions/lobe.glsl"
+#include "conventions/packed_lobe.glsl"
 #include "temporal/history_taps.glsl"
 #else
 #define HISTORY previousColour

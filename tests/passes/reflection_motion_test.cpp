@@ -367,7 +367,8 @@ TEST_F(ReflectionMotionTest, AccumulatesAlongTheImage) {
 
 TEST_F(ReflectionMotionTest, HardCasesAreFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const char* const name : {"accumulate", "svgf"}) {
+  for (const char* const name : {"walr", "svgf", "accumulate"}) {
+    SCOPED_TRACE(name);
     const auto method = makeDenoiser(name);
     ReflectionRun run(device(), *method);
     for (const Mirror& mirror :
@@ -398,7 +399,7 @@ TEST_F(ReflectionMotionTest, HardCasesAreFinite) {
 TEST(SpecularLight, IsRefusedByNameWhereAMethodCannotTakeIt) {
   for (const std::string& name : denoiserNames()) {
     const auto views = [&] { return makeDenoiser(name)->views({.specular = true}); };
-    if (name == "svgf" || name == "accumulate" || name == "none") {
+    if (name == "walr" || name == "svgf" || name == "accumulate" || name == "none") {
       EXPECT_NO_THROW((void)views());
       continue;
     }
@@ -406,9 +407,9 @@ TEST(SpecularLight, IsRefusedByNameWhereAMethodCannotTakeIt) {
       (void)views();
       ADD_FAILURE() << name;
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(
-          std::string(error.what()),
-          "method '" + name + "' takes diffuse light only; methods that take specular light: svgf, accumulate, none");
+      EXPECT_EQ(std::string(error.what()), "method '" + name +
+                                               "' takes diffuse light only; methods that take specular light: walr, "
+                                               "svgf, accumulate, none");
     }
   }
   const auto method = makeDenoiser("accumulate");

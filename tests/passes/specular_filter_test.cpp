@@ -1,0 +1,196 @@
+// The method `walr` on specular light: its regression against the double-precision reference, and what its parts
+// promise.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/gtc/packing.hpp>
+
+#include "passes/methods/denoiser.h"
+#include "tests/error_text.h"
+#include "tests/passes/block_filter.h"
+#include "tests/passes/comparison.h"
+#include "tests/passes/denoiser_run.h"
+#include "tests/passes/reference/block_regression.h"
+#include "tests/passes/reference/octahedral.h"
+#include "tests/passes/synthetic_scene.h"
+#include "tests/vulkan/gpu_fixture.h"
+
+namespace walr::test::specular_filter_test {
+namespace {
+
+using reference::Guide;
+using reference::HostFrame;
+using reference::Image;
+using reference::Reflector;
+using reference::Storage;
+
+constexpr glm::ivec2 kSize(45, 34);
+
+/// The texels of reflector.glsl: normal, roughness, and the inverse distance as a half.
+std::vector<std::uint64_t> encode(const Image<Guide>& guides, const Image<Reflector>& reflectors) {
+  std::vector<std::uint64_t> texels;
+  reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+    const auto roughness = static_cast<std::uint32_t>(std::lround(255.0 * reflectors[p].roughness));
+    const std::uint32_t distance = glm::packHalf1x16(static_cast<float>(reflectors[p].inverseDistance));
+    const std::uint32_t normal = glm::packUnorm2x16(glm::vec2(guides[p].features));
+    texels.push_back(std::uint64_t{normal} | std::uint64_t{roughness | 1U << 8U | distance << 16U} << 32U);
+  });
+  return texels;
+}
+
+/// The regression and its reconstruction alone.
+class RegressionRun {
+ public:
+  RegressionRun(const fg::test::TestDevice& device, const BlockRegressionSettings& settings)
+      : frame_(graph_.upload("frame constants", sizeof(FrameConstants))),
+        accumulated_(importHalves(graph_, "accumulated", kSize)) {
+    const fg::Extent extent = graph_.textureDesc(accumulated_).extent;
+    guides_.depth = graph_.import("depth", {VK_FORMAT_R32_UINT, extent}, fg::vk::kUploaded);
+    guides_.features = graph_.import("reflectors", {VK_FORMAT_R32G32_UINT, extent}, fg::vk::kUploaded);
+    output_ = copyOut(graph_, "result",
+                      addBlockFilter(graph_, frame_, {accumulated_, LightingAlpha::SampleCount}, guides_, settings));
+    run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
+  }
+  Image<glm::dvec4> filter(const HostFrame& frame, const Image<Guide>& guides, const Image<Reflector>& reflectors,
+                           const Image<glm::dvec4>& accumulated) {
+    run_->executor().upload(frame_, frame.constants);
+    Guides depth;
+    depth.depth = guides_.depth;
+    upload(*run_, depth, guides);
+    run_->fill(guides_.features, encode(guides, reflectors));
+    upload(*run_, accumulated_, accumulated);
+    run_->frame();
+    return readHalves(*run_, output_, kSize);
+  }
+
+ private:
+  fg::Graph graph_;
+  fg::Buffer frame_;
+  fg::Texture accumulated_;
+  Guides guides_;
+  fg::Texture output_;
+  std::unique_ptr<fg::test::GraphRun> run_;
+};
+
+class SpecularFilter : public fg::test::GpuTest {};
+
+// Rougher than mirrors: windows of few pixels, and weights of lobes that are all far, depend as much on rounding as on
+// the light.
+TEST_F(SpecularFilter, RegressionAgreesWithBruteForce) {
+  // Means of features are halves, which err by 2^-12. Weights fall from 1 to exp(-1/2) over a tenth of roughness or of
+  // direction, so that they err by a quarter of a hundredth there, and by more where they are small.
+  constexpr double kBound = 1e-3;
+  const BlockRegressionSettings settings{.size = 2, .iterations = 2, .coarseSigma = 0.15F, .coarseSamples = 300.0F};
+  RegressionRun run(device(), settings);
+  for (const auto& [name, scene] : {NamedScene{"bumpy wall", bumpyWall(0.1)}, NamedScene{"sphere", sphere()},
+                                    NamedScene{"grazing floor", grazingFloor()}}) {
+    SCOPED_TRACE(name);
+    const HostFrame frame = renderStill(scene, kSize);
+    // Depths and planes as they lie in one word, shading normals as in a word of their own.
+    Image<Guide> guides = reference::prepareGuides(frame, Storage::Quantised, {}, kOcclusionInSmallImages);
+    const Image<Guide> precise = reference::prepareGuides(frame, Storage::Quantised);
+    Image<Reflector> reflectors(kSize);
+    Image<glm::dvec4> accumulated = withAlpha(frame.lighting);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      guides[p].features = precise[p].features;
+      reflectors[p].roughness = std::round(255.0 * (0.58 + 0.32 * std::sin(0.2 * p.x))) / 255.0;
+      reflectors[p].inverseDistance = reference::roundToHalf(p.y < 20 ? 0.3 + 0.01 * p.x : 0.0);
+      accumulated[p].a = 1.0 + p.x % 3;
+    });
+    const Image<glm::dvec4> actual = run.filter(frame, guides, reflectors, accumulated);
+    const auto expected = reference::blockRegression(frame, guides, accumulated, settings, false, &reflectors);
+    const double rms = surfaceRmse(guides, actual, expected);
+    EXPECT_LE(rms, kBound);
+    RecordProperty(name, std::to_string(rms));
+  }
+}
+
+/// Frames of a still wall whose roughness is the same everywhere.
+HostFrame specularFrame(double roughness, double distance, std::uint32_t index) {
+  HostFrame frame = renderStill(wallFacing({0.0, 0.0, 1.0}), kSize, index);
+  frame.conventions.specular = true;
+  frame.lightAlpha = Image<double>(kSize, distance);
+  frame.roughness = Image<double>(kSize, roughness);
+  return frame;
+}
+
+// A mirror shows an image, which no fit knows: the light stays as it is. In a first frame it is that of the frame.
+TEST_F(SpecularFilter, MirrorsKeepTheirLight) {
+  const auto method = makeDenoiser("walr");
+  method->set("accumulation.storage", "half");
+  method->set("antialiasing.enabled", "off");
+  DenoiserRun run(device(), *method, kSize, {.specular = true});
+  const auto error = [&](double roughness) {
+    run.reset();
+    const HostFrame frame = specularFrame(roughness, 1.0, 0);
+    return surfaceError(run.frame(frame), frame);
+  };
+  // The residual is a difference of halves in single precision; light is below 16.
+  EXPECT_LE(error(0.0), 16.0 * reference::kHalfRoundoff);
+  EXPECT_GT(error(1.0), 0.1);
+}
+
+// The mean distance is that of inverse distances: of 1 and 1/3 at a depth d, d / 2 + d / 6. A pixel without a sample
+// keeps the mean.
+TEST_F(SpecularFilter, DistancesAreMeansOverTime) {
+  const auto method = makeDenoiser("walr");
+  method->set("blocks.iterations", "1");
+  fg::Graph graph;
+  const DenoiserInputs inputs = importInputs(graph, kSize, {.specular = true});
+  const fg::Texture output = importOutput(graph, kSize);
+  Inspection inspection;
+  inspection.want("feature-mean-2",
+                  graph.import("view", {kViewFormat, graph.textureDesc(output).extent}, fg::vk::kOverwritable));
+  graph.exported(method->add({graph, inspection}, inputs, output), fg::vk::kReadable);
+  graph.exported(inspection.views().front().texture, fg::vk::kReadable);
+  fg::test::GraphRun run(device(), graph, fg::vk::ExecutorOptions{.shared = device().pipelines()});
+  double depth = 0.0;
+  for (const double distance : {1.0, 3.0, 0.0}) {
+    const HostFrame frame = specularFrame(1.0, distance, 0);
+    upload(run, inputs, frame);
+    run.frame();
+    depth = frame.depth[kSize / 2];
+  }
+  const std::vector<float> view = run.texels<float>(inspection.views().front().texture);
+  const auto centre = static_cast<std::size_t>(kSize.y / 2 * kSize.x + kSize.x / 2);
+  const double inverse = (depth + depth / 3.0) / 2.0;
+  // The window reaches some 6 pixels from the centre of the picture, where view rays are 1.6 % longer; the feature then
+  // differs by .003.
+  EXPECT_NEAR(view[4 * centre], 1.0 / (1.0 + 1.0 / inverse) - 1.0, 0.01);
+}
+
+TEST(SpecularFilterPlan, DiffuseLightHasNoShaderOfSpecularLight) {
+  for (const bool specular : {false, true}) {
+    const auto method = makeDenoiser("walr");
+    fg::Graph graph;
+    const DenoiserInputs inputs = importInputs(graph, kSize, {.specular = specular});
+    (void)method->add(graph, inputs, importOutput(graph, kSize));
+    std::vector<std::string> found;
+    for (const fg::PassDecl& pass : graph.desc().passes) {
+      const auto* work = std::get_if<fg::ComputeDispatch>(&pass.work);
+      const std::string name = work != nullptr ? std::string(work->shader->name) : "";
+      if (name.find("specular") != std::string::npos || name.find("reflection") != std::string::npos)
+        found.push_back(name);
+    }
+    EXPECT_EQ(!found.empty(), specular) << (found.empty() ? "" : found.front());
+  }
+}
+
+TEST(SpecularFilterPlan, WhatItCannotDoIsRefusedByName) {
+  const auto refused = [](const char* setting, const char* value, std::string_view why) {
+    const auto method = makeDenoiser("walr");
+    method->set(setting, value);
+    fg::test::expectError<std::invalid_argument>([&] { (void)method->views({.specular = true}); }, {why});
+  };
+  refused("blocks.residual", "off", "blocks.residual");
+  refused("spatial-only", "on", "spatial-only");
+}
+
+}  // namespace
+}  // namespace walr::test::specular_filter_test
