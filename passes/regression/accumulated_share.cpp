@@ -1,6 +1,7 @@
 #include "passes/regression/accumulated_share.h"
 
 #include "passes/conventions/light_storage.h"
+#include "passes/stage/grid_extent.h"
 #include "passes/temporal/antilag.h"
 #include "shaders/regression/accumulated_share.h"
 #include "shaders/shaders.h"
@@ -26,12 +27,11 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
                          const AccumulatedShareSettings& settings) {
   const fg::Extent pixels = graph->textureDesc(inputs.accumulated).extent;
   const bool packed = lightStorageOf(graph->textureDesc(inputs.accumulated).format) == LightStorage::Packed;
-  const fg::TextureDesc ofTiles{VK_FORMAT_R32G32B32A32_SFLOAT, inputs.tiles};
   // Beside the statistics of a tile's other pixels stand those of its pixels beside an edge.
-  const fg::TextureDesc ofBoth{ofTiles.format, {2 * inputs.tiles.width, inputs.tiles.height}};
-  const fg::History statistics = graph->history("residual statistics", ofBoth);
-  const fg::History agreement = graph->history("residual agreement", ofTiles);
-  const fg::History innovation = graph->history("innovation", {VK_FORMAT_R16_SFLOAT, pixels});
+  const fg::Extent twice = {2 * inputs.tiles.width, inputs.tiles.height};
+  const fg::History statistics = graph->history("residual statistics", {VK_FORMAT_R16G16B16A16_SFLOAT, twice});
+  const fg::History agreement = graph->history("residual agreement", {VK_FORMAT_R16G16B16A16_SFLOAT, inputs.tiles});
+  const fg::History innovation = graph->history("innovation", {VK_FORMAT_R8_UINT, gridExtent(pixels, 2)});
   // Without a history that somebody steers, history may be as long as packed light can count.
   const SteeredHistory history =
       inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples);
@@ -46,14 +46,16 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sample("previousAgreement", agreement.previous)
       .sample("previousInnovation", innovation.previous);
   static_cast<void>(apply.store("outInnovation", innovation.current));
-  const fg::Texture sums = apply.store("outResidualSums", graph->texture("residual sums", ofBoth));
-  const fg::Texture innovationSums = apply.store("outInnovationSums", graph->texture("innovation sums", ofTiles));
+  const fg::Texture sums =
+      apply.store("outResidualSums", graph->texture("residual sums", {VK_FORMAT_R32G32B32A32_SFLOAT, twice}));
+  const fg::Texture innovationSums = apply.store(
+      "outInnovationSums", graph->texture("innovation sums", {VK_FORMAT_R32G32B32A32_SFLOAT, inputs.tiles}));
 
   // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
   const float bias = 0.5F * settings.innovationBias / history.maxHistory;
   fg::PassBuilder pass = graph->compute("residual statistics", shaders::residualStatistics);
   pass.uniform("frameConstants", inputs.frame)
-      .sample("depth", inputs.guides.depth)
+      .sample("fitDepth", inputs.blockDepth)
       .sample("sums", sums)
       .sample("innovationSums", innovationSums)
       .sample("previousStatistics", statistics.previous)
@@ -61,6 +63,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sample("previousLeastAntilag", history.leastAntilag.previous)
       .specialize("kTileSize", inputs.tileSize)
       .specialize("kRadius", settings.radius)
+      .specialize("kBlockSize", inputs.blockSize)
       .constants(ResidualStatisticsConstants{.tileOffset = static_cast<std::int32_t>(inputs.tileOffset),
                                              .kept = 1.0F - 1.0F / settings.frames,
                                              .keptQuiet = 1.0F - 1.0F / (kQuietMemory * settings.frames),

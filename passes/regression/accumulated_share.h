@@ -19,7 +19,7 @@ struct AccumulatedShareSettings {
   float gain = 8.0F;
   float edgeGain = 16.0F;
   float leastShare = 0.6F;
-  float innovationGain = 1.5F;
+  float innovationGain = 2.0F;
   float innovationBias = 1.28F;
   float antialiasingShare = 0.3F;
 
@@ -68,6 +68,8 @@ struct AccumulatedShareInputs {
   fg::Texture lighting;     ///< This frame's noisy light.
   fg::Texture antilag;      ///< `AccumulatedLight::antilag`.
   Guides guides;
+  fg::Texture blockDepth;                 ///< `BlockFits::depth`.
+  std::uint32_t blockSize;                ///< Pixels per axis.
   std::uint32_t tileSize;                 ///< Pixels per axis of a workgroup of the reconstruction.
   std::uint32_t tileOffset;               ///< Pixels of the first one that lie before the image, per axis.
   fg::Extent tiles;                       ///< Number of these workgroups.

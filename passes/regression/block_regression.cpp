@@ -202,7 +202,7 @@ const std::vector<ViewInfo>& reconstructionViews() {
 /// The fits of blocks.
 struct FineFit {
   fg::Buffer fits;
-  fg::Texture depth;  ///< R32_UINT: depth of each block, and whether its fit has converged (block_storage.glsl).
+  fg::Texture depth;  ///< `BlockFits::depth`.
 };
 
 /// The fit of an edge-aware window around every block (Meunier & Harada 2022, 3.2).
@@ -350,7 +350,7 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
   const fg::Texture normal =
       gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
   const FineFit fine = addFineFit(grid, blocks, normal, settings.iterations, isSpecular(grid, guides));
-  return {.fine = fine.fits, .coarse = addCoarseFit(grid, cells, fine.depth)};
+  return {.fine = fine.fits, .coarse = addCoarseFit(grid, cells, fine.depth), .depth = fine.depth};
 }
 
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
@@ -394,6 +394,8 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
                          .lighting = light.lighting,
                          .antilag = light.antilag ? light.antilag->factor : fg::Texture{},
                          .guides = guides,
+                         .blockDepth = fits.depth,
+                         .blockSize = grid.size,
                          .tileSize = tileSizeOf(grid, shader),
                          .tileOffset = pixelsBeforeImage(grid),
                          .tiles = tilesOf(grid, shader),

@@ -105,6 +105,7 @@ struct BlockLight {
 struct BlockFits {
   fg::Buffer fine;    ///< One `StoredBlockFit` per block, row by row.
   fg::Buffer coarse;  ///< One `StoredFit` per cell, row by row.
+  fg::Texture depth;  ///< R32_UINT: depth of each block, and whether its fit has converged (block_storage.glsl).
 };
 
 /// Weighted linear regression of the lighting on {1, normal, inverse depth, ambient occlusion} over blocks of pixels:

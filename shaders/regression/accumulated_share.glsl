@@ -16,12 +16,17 @@
 #include "temporal/antilag.glsl"
 #include "regression/best_share.glsl"
 #include "conventions/camera.glsl"
+#include "common/cube_roots.glsl"
 #include "common/finite.glsl"
 #include "regression/innovation.glsl"
 #include "common/luminance.glsl"
 #include "conventions/packed_light.glsl"
 #include "regression/quiet_tiles.glsl"
 #include "regression/reconstruction_tile.glsl"
+
+float depthAtMiddle(ivec2 p) {
+  return unpackDepthBesideNormal(texelFetch(depth, min(p, textureSize(depth, 0) - 1), 0).x);
+}
 #include "regression/tile_before.glsl"
 
 layout(constant_id = 3) const bool kPackedMean = true;  // The accumulated light is packed.
@@ -30,7 +35,7 @@ uniform utexture2D accumulatedPacked;
 uniform texture2D accumulatedHalf;
 uniform texture2D lighting;
 uniform sampler2D antilag;
-uniform texture2D previousStatistics;  // residual_statistics.comp.
+uniform texture2D previousStatistics;  // residual_statistics.comp; cube roots.
 uniform sampler2D previousAgreement;   // Blue: trust; alpha: tileState.
 layout(rgba32f) uniform writeonly image2D outResidualSums;  // Right half: of pixels beside an edge.
 
@@ -93,6 +98,7 @@ Statistics previousStatisticsAt(vec3 before, bool edge) {
     found.sums += weight * texelFetch(previousStatistics, q, 0);
     found.trust += weight * trust[i];
   }
+  found.sums = cubes(found.sums);  // Cubed after interpolation, which takes fewer instructions.
   return found;
 }
 
@@ -194,12 +200,13 @@ float sameSurface(SameSurface s, int thread) {
 
 // Mean residual over the 3 x 3 pixels, as far as this workgroup has them. `halves`: leave out pixels without y or h, as
 // statistics need; where a surface has just appeared, most pixels have no h. `edge`: whether one of the pixels shows
-// another surface or none.
-Residual meanAround(SameSurface surface, bool halves, out bool edge) {
+// another surface or none. `quad`: the innovations of those in the quad whose first pixel this is.
+Residual meanAround(SameSurface surface, bool halves, out bool edge, out Quad quad) {
   const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
   const float ofMissing = halves ? 0.0 : -1.0;
   Residual sum = Residual(vec3(0.0), 0.0, 0.0, 0.0);
   float weights = 0.0, least = 1.0;
+  quad = Quad(0.0, 0.0, 0.0);
   [[unroll]] for (int i = 0; i < 9; ++i) {
     const ivec2 t = thread + ivec2(i % 3, i / 3) - 1, inside = clamp(t, ivec2(0), ivec2(kGroupSize - 1));
     const int q = inside.y * kGroupSize + inside.x;
@@ -212,6 +219,10 @@ Residual meanAround(SameSurface surface, bool halves, out bool edge) {
     sum.history += weight * groupValues[kGroupPositions + q].a;
     sum.samples += weight * samples;
     weights += weight;
+    if (i % 3 > 0 && i > 3) {
+      const float innovation = groupValues[kGroupResiduals + q].a - groupValues[kGroupPositions + q].a;
+      add(quad, t == inside && stored > 0.0 ? same : 0.0, innovation);
+    }
   }
   edge = least < 0.5;
   const float scale = weights > 0.0 ? 1.0 / weights : 0.0;
@@ -270,7 +281,7 @@ void storeSums(Measured pixel) {
 
 // What a workgroup that takes no part leaves to later frames: nothing.
 void storeNoSums(ivec2 p, bool hasPixel) {
-  if (hasPixel) storeInnovation(p, 0.0);
+  if (hasPixel && isFirstOfQuad(p)) storeInnovation(p, 0.0);
   if (gl_LocalInvocationIndex != 0u) return;
   const ivec2 tile = ivec2(gl_WorkGroupID.xy);
   imageStore(outResidualSums, tile, vec4(0.0));
@@ -329,7 +340,8 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
   if (accumulated.mean.a > 0.0) {
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
     const SameSurface surface = sameSurfaceAs(shown);
-    const Residual around = meanAround(surface, own.samples > 0.0, measured.edge);
+    Quad quad;
+    const Residual around = meanAround(surface, own.samples > 0.0, measured.edge, quad);
 #ifdef SPECULAR
     measured.edge = isNarrow(ownRoughness);  // In place of an edge.
 #endif
@@ -340,16 +352,18 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
     result += SHARE(known.sums.xy, around.samples, known.trust, aroundGain) * around.mean;
     result += SHARE(known.sums.zw, length, known.trust, constants.residualGain) * detail;
     if (own.samples > 0.0) {
-      innovation = own.noisy - own.history;
       measured.light = vec2(luminance(shown.predicted), 1.0);
       measured.statistics =
           vec4(statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples),
                statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), length));
-      if (steers) measured.innovation = innovationTerms(innovation, before);
       measured.far = vec4(farProduct(surface, own, 0), farProduct(surface, own, 1));
     }
+    if (isFirstOfQuad(p)) {
+      innovation = meanInnovation(quad);
+      if (steers) measured.innovation = innovationTerms(quad, before);
+    }
   }
-  if (hasPixel) storeInnovation(p, innovation);
+  if (hasPixel && isFirstOfQuad(p)) storeInnovation(p, innovation);
   storeSums(measured);
   return clamp(result, vec3(0.0), vec3(kLightUnit));  // As predictions are: packed light holds no more.
 }

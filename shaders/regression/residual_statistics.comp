@@ -11,22 +11,29 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kTileSize = 8;  // Pixels per axis, 5 to 8.
 layout(constant_id = 1) const int kRadius = 5;    // Of the window of tiles.
+layout(constant_id = 2) const int kBlockSize = 4;  // Pixels per axis.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
-uniform utexture2D depth;
-uniform texture2D sums;  // Of each tile: include/accumulated_share.glsl. Right half: of pixels beside an edge.
-uniform texture2D innovationSums;  // xy: include/innovation.glsl; zw: products of residuals two pixels apart, by axis.
-uniform texture2D previousStatistics;
+uniform utexture2D fitDepth;  // Of each block.
+uniform texture2D sums;  // Of each tile: accumulated_share.glsl. Right half: of pixels beside an edge.
+uniform texture2D innovationSums;  // xy: innovation.glsl; zw: products of residuals two pixels apart, by axis.
+uniform texture2D previousStatistics;  // Cube roots.
 uniform texture2D previousAgreement;
 uniform texture2D previousLeastAntilag;
-layout(rgba32f) uniform writeonly image2D outStatistics;  // As the sums.
-// xy: sums of the products two pixels apart; z: trust; w: tileState.
-layout(rgba32f) uniform writeonly image2D outAgreement;
+layout(rgba16f) uniform writeonly image2D outStatistics;  // Cube roots of sums as the above.
+// xy: cube roots of the sums of the products two pixels apart; z: trust; w: tileState.
+layout(rgba16f) uniform writeonly image2D outAgreement;
 layout(r32f) uniform writeonly image2D outLeastAntilag;
 layout(r32ui) uniform writeonly uimage2D outShortening;  // Of the history of anti-aliasing: 0 not at all, 1 to none.
 layout(push_constant) uniform PushConstants { ResidualStatisticsConstants constants; };
+#include "common/cube_roots.glsl"
 #include "regression/best_share.glsl"
 #include "regression/quiet_tiles.glsl"
+#include "conventions/surface.glsl"
+
+float depthAtMiddle(ivec2 p) {
+  return unpackDepth(texelFetch(fitDepth, min(p / kBlockSize, textureSize(fitDepth, 0) - 1), 0).x);
+}
 #include "regression/tile_before.glsl"
 
 ivec2 tilesOfImage() { return textureSize(innovationSums, 0); }
@@ -87,14 +94,15 @@ void storeStatistics(ivec2 tile) {
   if (all(greaterThanEqual(before, ivec2(0))) && all(lessThan(before, size))) {
     agreement = texelFetch(previousAgreement, before, 0);
     const float kept = isQuiet(agreement.w) ? constants.keptQuiet : constants.kept;
-    interior += kept * texelFetch(previousStatistics, before, 0);
-    edge += kept * texelFetch(previousStatistics, before + rightHalf, 0);
-    far += kept * agreement.xy;
+    interior += kept * cubes(texelFetch(previousStatistics, before, 0));
+    edge += kept * cubes(texelFetch(previousStatistics, before + rightHalf, 0));
+    far += kept * cubes(agreement).xy;
   }
-  imageStore(outStatistics, tile, interior);
-  imageStore(outStatistics, tile + rightHalf, edge);
+  imageStore(outStatistics, tile, cubeRoots(interior));
+  imageStore(outStatistics, tile + rightHalf, cubeRoots(edge));
   const float trust = trustIn(interior + edge, far);
-  imageStore(outAgreement, tile, vec4(far, trust, stateOf(interior, edge, hasEdges, trust, agreement.w)));
+  const float state = stateOf(interior, edge, hasEdges, trust, agreement.w);
+  imageStore(outAgreement, tile, vec4(cubeRoots(vec4(far, 0.0, 0.0)).xy, trust, state));
 }
 
 // The tile that holds the middle of a tile of antilag.
@@ -118,14 +126,19 @@ vec3 innovationsAround(ivec2 tileOfSums) {
   return sum;
 }
 
-// How far anti-aliasing shortens its history. Its mean removes noise, and reprojection blurs it. Where the accumulated
-// light of a tile has a large share in the result, there is little noise and much that blur would take away.
-float shorteningOf(ivec2 tileOfSums, float trust) {
+// The share of the accumulated light of a tile in the last frame's result.
+float shareOf(ivec2 tileOfSums, float trust) {
   if (!hasPrevious()) return 0.0;
-  const float range = 0.5;  // Of shares, between no shortening and no history.
   const ivec2 ofEdges = tileOfSums + ivec2(tilesOfImage().x, 0);
-  const vec4 sums = texelFetch(previousStatistics, tileOfSums, 0) + texelFetch(previousStatistics, ofEdges, 0);
-  const float share = bestShare(sums.xy + sums.zw, constants.maxHistory, trust, constants.residualGain);
+  const vec4 sums =
+      cubes(texelFetch(previousStatistics, tileOfSums, 0)) + cubes(texelFetch(previousStatistics, ofEdges, 0));
+  return bestShare(sums.xy + sums.zw, constants.maxHistory, trust, constants.residualGain);
+}
+
+// How far anti-aliasing shortens its history. Its mean removes noise, and reprojection blurs it. Where accumulated light
+// has a large share, there is little noise and much that blur would take away.
+float shorteningAt(float share) {
+  const float range = 0.5;  // Of shares, between no shortening and no history.
   return clamp((share - constants.antialiasingShare) / range, 0.0, 1.0);
 }
 
@@ -139,17 +152,23 @@ void storeHistoryLengths(ivec2 tile) {
   const float previous = hasPrevious() ? texelFetch(previousLeastAntilag, tile, 0).x : 0.0;
   const float before = longest * (1.0 - previous) + 1.0;
   // The slope of the regression of innovations on those of the frame before is, without noise, how much more the last frame
-  // should have counted. If only noise parts light and history, it is minus half of the share with which it counted.
+  // should have counted. If only noise parts light and history, it is minus half of the share with which it counted. Means
+  // over four pixels have a quarter of this while the camera stands still, and a ninth where quads of both frames overlap
+  // by chance. What is missing is added.
   // Quiet tiles have innovations in every second frame. The slope of few tiles is noise.
-  const float enough = 16.0;
-  const float excess = sums.y > 0.0 ? sums.x / sums.y + constants.innovationBias : 0.0;
+  const float enough = 16.0, ofPixels = 0.82 * 0.5 / before;
+  const float excess = sums.y > 0.0 ? sums.x / sums.y - ofPixels + constants.innovationBias : 0.0;
   // Noise that successive frames share lets innovations agree, too: history is shortened as far as there is trust.
   const float trust = hasPrevious() ? texelFetch(previousAgreement, tileOfSums, 0).z : 0.0;
-  const float change = min(sums.z / enough, 1.0) * constants.innovationGain * (excess > 0.0 ? trust * excess : excess);
+  // Where accumulated light has a share, there is little noise. What quads show of its detail is less than pixels would.
+  // What a slope may change falls with the length of a history, as the slope of noise does.
+  const float share = shareOf(tileOfSums, trust), fullGain = 8.0;  // Up to so many frames.
+  const float gain = constants.innovationGain * (1.0 + 8.0 * share) * min(fullGain / before, 1.0);
+  const float change = min(sums.z / enough, 1.0) * gain * (excess > 0.0 ? trust * excess : excess);
   const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
   const float factor = 1.0 - (frames - 1.0) / longest;
   imageStore(outLeastAntilag, tile, vec4(clamp(factor, 0.0, 1.0)));
-  imageStore(outShortening, tile, uvec4(floatBitsToUint(shorteningOf(tileOfSums, trust))));
+  imageStore(outShortening, tile, uvec4(floatBitsToUint(shorteningAt(share))));
 }
 
 void main() {

@@ -76,6 +76,13 @@ struct Level {
     noise += weight * other.noise;
   }
 };
+/// The roots and the cubes of sums, which are stored and interpolated as roots.
+Level cubeRoot(const Level& l) {
+  return {std::cbrt(l.missed), std::cbrt(l.noise)};
+}
+Level cube(const Level& l) {
+  return {l.missed * l.missed * l.missed, l.noise * l.noise * l.noise};
+}
 Level levelOf(const Residual& r) {
   const double missed = r.noisy * r.history;
   return {missed, kSamples * (r.mean * r.mean - missed)};
@@ -162,14 +169,16 @@ class ExpectedResult {
       const glm::ivec2 corner(i & 1, i >> 1);
       const double weight = (corner.x == 1 ? f.x : 1.0 - f.x) * (corner.y == 1 ? f.y : 1.0 - f.y);
       const glm::ivec2 tile = glm::clamp(glm::ivec2(base) + corner, glm::ivec2(0), kTiles - 1);
-      for (int level = 0; level < 2; ++level) known[level].add(statistics.levels[tile][edges_[p]][level], weight);
+      for (int level = 0; level < 2; ++level) {
+        known[level].add(cubeRoot(statistics.levels[tile][edges_[p]][level]), weight);
+      }
       trust += weight * trustIn(statistics.levels[tile], statistics.far[tile]);
     }
     const double around = around_[p].mean;
     const AccumulatedShareSettings settings;
     const double aroundGain = besideEdge(p) ? settings.edgeGain : settings.gain;
-    return {shareOf(known[0], trust, samples, aroundGain) * around,
-            shareOf(known[1], trust, samples, settings.gain) * (own_[p].mean - around)};
+    return {shareOf(cube(known[0]), trust, samples, aroundGain) * around,
+            shareOf(cube(known[1]), trust, samples, settings.gain) * (own_[p].mean - around)};
   }
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
   /// Sum of the residuals that the shares multiply, as absolute values.
@@ -342,10 +351,10 @@ class MeasuredFrames {
 double toleranceOf(double light, double residuals, bool partly) {
   // The prediction and the result are rounded to halves. The device measures its statistics before this rounding, so
   // that its residuals differ from the test's by 2^-11 of the light. Root mean squares of residuals are above half of
-  // the light here, so that mean squares differ by less than 2^-9. A share is x / (x + 1), where x is a ratio of two
-  // such means: it differs by at most a quarter of 2^-8. Trust, where it is between 0 and 1, is a ratio divided by .2.
-  // The product of both is divided by 1 - least share.
-  const double shareError = std::exp2(-10.0) + (partly ? 5.0 * std::exp2(-9.0) : 0.0);
+  // the light here, so that mean squares differ by less than 2^-9, and by twice 2^-10 where they are stored as cube
+  // roots. A share is x / (x + 1), where x is a ratio of two such means: it differs by at most a quarter of 2^-7.
+  // Trust, where it is between 0 and 1, is a ratio divided by .2. The product of both is divided by 1 - least share.
+  const double shareError = std::exp2(-9.0) + (partly ? 5.0 * std::exp2(-8.0) : 0.0);
   const double least = AccumulatedShareSettings{}.leastShare;
   return 2.0 * std::exp2(-11.0) * light + shareError / (1.0 - least) * residuals;
 }

@@ -29,6 +29,7 @@ constexpr int kTile = 8;    // Pixels per axis of a tile of the statistics: two 
 constexpr int kBefore = 2;  // Pixels of the first tile before the image: half a block.
 constexpr double kSamples = 8.0;
 constexpr double kLongest = 8.0;
+const glm::ivec2 kQuads = (kSize - 1) / 2 + 1;
 const glm::ivec2 kTiles = (kSize - 1 + kBefore) / kTile + 1;
 const glm::ivec2 kAntilagTiles = (kSize - 1) / kAntilagTile + 1;
 
@@ -39,8 +40,9 @@ struct Light {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> noise(-0.3, 0.3);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-      // The bilinear history of innovations ends at the border of the image: there are none to be missed.
-      const bool border = p.x == 0 || p.y == 0 || p.x == kSize.x - 1 || p.y == kSize.y - 1;
+      // The bilinear history of innovations ends at the quads of the image's border: there are none to be missed.
+      const glm::ivec2 quad = p / 2;
+      const bool border = quad.x == 0 || quad.y == 0 || quad.x == kQuads.x - 1 || quad.y == kQuads.y - 1;
       const double innovation = noise(random) * (border ? 0.0 : factor);
       const double h = 1.0 + (p.x / 2 % 2 == 0 ? 0.5 : -0.5);
       lighting[p] = glm::dvec4(glm::dvec3(reference::roundToHalf(h + innovation)), 1.0);
@@ -52,8 +54,24 @@ struct Light {
     return kSamples / (kSamples - 1.0) *
            (reference::luminance(glm::dvec3(lighting[p])) - reference::luminance(glm::dvec3(mean[p])));
   }
+  /// Of a quad, all pixels of which lie in one tile: their number, and the sums of their innovations and of the
+  /// squares.
+  [[nodiscard]] glm::dvec3 quad(glm::ivec2 quad) const {
+    glm::dvec3 sums(0.0);
+    for (const glm::ivec2 offset : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+      const glm::ivec2 p = 2 * quad + offset;
+      if (p.x < kSize.x && p.y < kSize.y) sums += glm::dvec3(1.0, innovation(p), innovation(p) * innovation(p));
+    }
+    return sums;
+  }
   Image<glm::dvec4> lighting{kSize}, mean{kSize};
 };
+
+/// Nearest float with three significant bits, which is what a stored innovation keeps of a half.
+double roundInnovation(double value) {
+  const double step = value == 0.0 ? 1.0 : std::exp2(std::floor(std::log2(std::abs(value))) - 2.0);
+  return step * std::round(value / step);
+}
 
 /// The filter without a share of accumulated light, whose result is the prediction, or with it. The result is then the
 /// least antilag factor of each tile.
@@ -75,10 +93,13 @@ FilterRun filterRun(const fg::test::TestDevice& device, bool steers) {
 /// Slope of the regression of a frame's innovations on those of the frame before, around a tile of the statistics.
 double slopeAround(glm::ivec2 middle, const Light& before, const Light& now, const Image<glm::dvec4>& predicted) {
   Image<glm::dvec2> sums(kTiles), lights(kTiles);
+  reference::forEachPixel(kQuads, [&](glm::ivec2 quad) {
+    const glm::dvec3 last = before.quad(quad), current = now.quad(quad);
+    const double previous = roundInnovation(last.y / last.x);
+    if (previous != 0.0) sums[(2 * quad + kBefore) / kTile] += glm::dvec2(previous * current.y, current.z);
+  });
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
     const glm::ivec2 tile = (p + kBefore) / kTile;
-    const double previous = reference::roundToHalf(before.innovation(p));
-    sums[tile] += previous * glm::dvec2(now.innovation(p), previous);
     lights[tile] += glm::dvec2(reference::luminance(glm::dvec3(predicted[p])), 1.0);
   });
   glm::dvec2 sum(0.0);
@@ -111,13 +132,19 @@ TEST_F(SteeredHistoryTest, AgreesWithDoublePrecision) {
     reference::forEachPixel(kAntilagTiles, [&](glm::ivec2 tile) {
       const glm::ivec2 middle = glm::min((kAntilagTile * tile + kAntilagTile / 2 + kBefore) / kTile, kTiles - 1);
       const double slope = first ? 0.0 : slopeAround(middle, before, now, predicted);
-      const double excess = slope + 0.5 * settings.innovationBias / kLongest;
-      // Nothing is trusted before there are statistics.
-      const double change = settings.innovationGain * (excess > 0.0 && first ? 0.0 : excess);
+      // Of the pixels' slope, half of the share of a frame, quads are to lack .82.
+      const double ofPixels = first ? 0.0 : 0.82 * 0.5 / frames[tile];
+      const double excess = slope - ofPixels + 0.5 * settings.innovationBias / kLongest;
+      // Nothing is trusted before there are statistics. Then the share is 1 within 2^-9: the stripes' square of .25
+      // counts eightfold against the noise of the mean, less than .03 / 8.
+      const double gain = settings.innovationGain * (first ? 1.0 : 9.0);
+      const double change = gain * (excess > 0.0 && first ? 0.0 : excess);
       frames[tile] = std::clamp(frames[tile] * (1.0 - change), 2.0, kLongest);
-      // The previous innovation is a half, read bilinearly at a position that rounding moves by less than 2^-12 of a
-      // pixel, where the neighbours' innovations are up to twice as large. The result is copied as a half.
-      const double ofSlope = settings.innovationGain * std::abs(slope) * (std::exp2(-11.0) + 4.0 * std::exp2(-12.0));
+      // The previous innovation is read bilinearly at a position that rounding moves by less than 2^-12 of a quad,
+      // where the neighbours' innovations are up to twice as large. One in a hundred quads, whose innovation lies in
+      // the middle between two that can be stored, may be off by an eighth. The result is copied as a half.
+      const double ofSlope =
+          gain * std::abs(slope) * (4.0 * std::exp2(-12.0) + 0.01 / 8.0) + std::exp2(-9.0) * std::abs(change);
       EXPECT_NEAR(actual[tile].x, 1.0 - (frames[tile] - 1.0) / kLongest,
                   ofSlope * (kLongest + 1.0) / kLongest + std::exp2(-11.0))
           << tile.x << ", " << tile.y;
