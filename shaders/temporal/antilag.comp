@@ -5,7 +5,8 @@
 // noise; a single firefly cannot raise it above 1.
 // Fireflies: the brightest sample that the next frame lets pass at this place, by the mean square of the samples of the
 // window. It rises at once, so that it follows light, and falls by half of the way on a logarithmic scale. If the window
-// was black, it is not known.
+// was black, it is not known. At default settings it is 42 times the root mean square, so that light passes that one sample
+// in 1,800 holds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

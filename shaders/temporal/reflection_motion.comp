@@ -1,4 +1,4 @@
-// Where the light that a surface reflects was in the previous frame (passes/WALR.md, "Specular light"). It moves with
+// Where the light that a surface reflects was in the previous frame (passes/SPECULAR.md). It moves with
 // the mirror image of what is reflected, and on rough surfaces with the surface itself. A candidate for its place is
 // tested by the ray that the previous frame's surface reflected there: by how much it misses the point that is
 // reflected now.

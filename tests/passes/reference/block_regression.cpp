@@ -88,7 +88,7 @@ double facing(glm::dvec3 a, glm::dvec3 b) {
   return std::clamp(glm::dot(a, b), 0.0, 1.0);
 }
 
-/// The lobe of specular light (passes/WALR.md, "Specular light").
+/// The lobe of specular light (passes/SPECULAR.md).
 struct Lobe {
   glm::dvec3 direction{0.0};
   double roughness = 0.0;
