@@ -83,6 +83,12 @@ def problems(groups, faults):
     return found
 
 
+def failed_case(test):
+    """The first failed case of a suite of GoogleTest in CTest's report, or else the name of the test."""
+    found = re.search(r"^\[  FAILED  \] (\S+)", test.findtext("system-out") or "", re.MULTILINE)
+    return found[1] if found else test.get("name")
+
+
 class Copy:
     """A clone of the project's last commit with a build folder of its own, in which faults are applied."""
 
@@ -157,13 +163,14 @@ class Copy:
         if not numbers:
             return [], 0
         # 0,0,0 is an empty range.
-        self.logged(f"{name}.test", ["ctest", "--test-dir", "build", "-I", f"0,0,0,{numbers}", "-j", str(self.jobs),
-                                     "--timeout", str(self.timeout), "--output-on-failure", "--output-junit", report,
+        self.logged(f"{name}.test", ["env", f"GTEST_FAIL_FAST={int(stop)}", "ctest", "--test-dir", "build",
+                                     "-I", f"0,0,0,{numbers}", "-j", str(self.jobs), "--timeout", str(self.timeout),
+                                     "--output-on-failure", "--output-junit", report,
                                      *(["--stop-on-failure"] if stop else [])])
         if not report.exists():
             sys.exit(f"ctest wrote no report: {self.logs}/{name}.test.txt")
         cases = ElementTree.parse(report).getroot().findall("testcase")
-        failed = [(case.get("name"), case.find("failure").get("message") or "Failed")
+        failed = [(failed_case(case), case.find("failure").get("message") or "Failed")
                   for case in cases if case.get("status") == "fail"]
         return failed, sum(case.get("status") in ("run", "fail") for case in cases)
 

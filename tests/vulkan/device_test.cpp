@@ -95,7 +95,7 @@ TEST_F(DeviceTest, SupportsTheFormatsOfAPlan) {
 }
 
 TEST(NoDriver, MessageNamesTheRemedy) {
-  // CTest runs each test in a process of its own. Without CTest, later tests need the environment restored.
+  // Later cases need the environment restored.
   const char* names[] = {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"};
   for (const char* name : names) setenv(name, "/nowhere/at/all.json", 1);
   const std::string message = errorText<vk::Unsupported>([] {

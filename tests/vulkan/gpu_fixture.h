@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,25 +10,25 @@
 namespace fg::test {
 
 /// A test on a Vulkan device with the validation layer and synchronization validation. It fails on every warning and
-/// error of the layer, including those at destruction of the device. It also fails if the layer or a device is missing.
+/// error of the layer. It also fails if the layer or a device is missing.
+///
+/// All cases of a suite share the device, because making it and its pipelines takes longer than most cases. After a
+/// failure the next case gets a new one. What the layer tells when the device is destroyed, for instance of objects
+/// that a case has left behind, fails the failed case or else the suite: run its cases one by one to see which it was.
 ///
 /// It uses the loader's first device; the loader's environment variables can select another. Shaders compute in single
 /// precision, as on the device of a host that enables no more than it must.
 class GpuTest : public testing::Test {
  protected:
+  static void TearDownTestSuite();
   void SetUp() override;
   void TearDown() override;
 
-  [[nodiscard]] const vk::Instance& instance() const { return *instance_; }
-  [[nodiscard]] const TestDevice& device() const { return *device_; }
-  [[nodiscard]] const vk::DeviceContext& context() const { return device_->context(); }
+  [[nodiscard]] static const vk::Instance& instance();
+  [[nodiscard]] static const TestDevice& device();
+  [[nodiscard]] static const vk::DeviceContext& context() { return device().context(); }
   /// Take the messages so far, so that they do not fail the test. For tests that provoke messages.
-  std::vector<vk::Message> takeMessages() { return log_.take(); }
-
- private:
-  vk::MessageLog log_;
-  std::unique_ptr<vk::Instance> instance_;
-  std::unique_ptr<TestDevice> device_;
+  static std::vector<vk::Message> takeMessages();
 };
 
 }  // namespace fg::test
