@@ -69,6 +69,7 @@ class SharedObjects : public fg::test::GpuTest {
 
 TEST_F(SharedObjects, InterleavedViewsGiveThePicturesOfSeparateDenoisers) {
   constexpr std::uint32_t kFrames = 5;
+  const std::vector<Bytes> expectedFirst = alone(View{kSize}, kFrames);
   // The second view's transients fit into the memory of the first's, or need more.
   for (const glm::ivec2 size : {kSize, glm::ivec2(40, 30), glm::ivec2(96, 80)}) {
     SCOPED_TRACE(std::to_string(size.x) + " pixels wide");
@@ -93,7 +94,7 @@ TEST_F(SharedObjects, InterleavedViewsGiveThePicturesOfSeparateDenoisers) {
       }
     }
     for (std::size_t v = 0; v < views.size(); ++v) {
-      const std::vector<Bytes> expected = alone(views[v], kFrames);
+      const std::vector<Bytes> expected = v == 0 ? expectedFirst : alone(views[v], kFrames);
       ASSERT_EQ(results[v].size(), 2U);
       EXPECT_EQ(results[v][0], expected[kFrames - 2]) << v;
       EXPECT_EQ(results[v][1], expected[kFrames - 1]) << v;
