@@ -121,7 +121,7 @@ TEST_F(DispatchListTest, ValidationReportsAWrongState) {
   constexpr Size kSize{53, 37};
   const WalrCamera camera = cameraAt(0);
   for (const Case& each : cases) {
-    const WalrPasses passes = makePasses("walr", kSize);
+    const WalrPasses passes = makePasses("accumulate", kSize);
     {
       list_host::Player player(host, api(), passes);
       player.falsify(each.kind, each.border, each.change);

@@ -158,6 +158,7 @@ std::uint64_t unsampledSurfaces(const HostFrame& frame) {
 
 // No fit is non-finite, pixels without a sample are counted, and every counter is the sum of its view.
 TEST_F(BaselineCountersTest, AreTheSumsOfTheirViewsOnHardCases) {
+  const std::vector<HardCase> cases = hardCases();
   for (const char* name : {"bmfr", "flr", "svgf", "joint_bilateral"}) {
     for (const char* spatialOnly : {"off", "on"}) {
       // The fit reads accumulated light as it reads samples, and lavapipe compiles its views for tens of seconds.
@@ -167,7 +168,6 @@ TEST_F(BaselineCountersTest, AreTheSumsOfTheirViewsOnHardCases) {
       std::vector<std::string> views;
       for (const ViewInfo& view : method->views())
         if (!view.counters.empty()) views.emplace_back(view.name);
-      const std::vector<HardCase> cases = hardCases();
       CountedRun run(device(), *method, cases.front().frames.front().size(), views);
       for (const HardCase& hard : cases) {
         SCOPED_TRACE(std::string(name) + ", spatial-only " + spatialOnly + ", " + hard.name);

@@ -170,6 +170,7 @@ const std::vector<Variant> kVariants{
 // The output is finite and not negative, the counters of the input agree with the input, and every counter that has a
 // view is the view's sum.
 TEST_F(CountersTest, AgreeWithInputAndViewsOnHardCasesInEveryStorageAndSolver) {
+  const std::vector<HardCase> cases = hardCases();
   for (const Variant& variant : kVariants) {
     const std::unique_ptr<Denoiser> method = walrOf(variant.preset);
     const std::string preset = variant.preset;
@@ -183,7 +184,7 @@ TEST_F(CountersTest, AgreeWithInputAndViewsOnHardCasesInEveryStorageAndSolver) {
     const std::vector<std::string> views{"no-surface", "history", "clamped", "pivots", "few-samples", "clip"};
     method->set(preset.empty() ? "walr.fit-window" : "walr_paper.fit-window", "off");
     CountedRun run(device(), *method, kSize, views);
-    for (const HardCase& hard : hardCases()) {
+    for (const HardCase& hard : cases) {
       SCOPED_TRACE(hard.name);
       run.reset();
       for (const HostFrame& frame : hard.frames) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -40,12 +41,15 @@ double counterOf(const DenoisedPicture& picture, std::string_view name) {
   return 0.0;
 }
 
-Result denoised(const GpuDevice& device, const std::filesystem::path& folder, MotionDepth source) {
+/// @param pipelines of the device; creating them takes longest
+Result denoised(const GpuDevice& device, const fg::vk::Membership& pipelines, const std::filesystem::path& folder,
+                MotionDepth source) {
   SequenceOptions options;
   options.motionDepth = source;
   const Sequence sequence(folder, options);
   const auto method = makeDenoiser("walr");
-  GpuDenoiser denoiser(device, *method, sequence.extent(), sequence.denoiserLayout(), {.counters = true});
+  GpuDenoiser denoiser(device, *method, sequence.extent(), sequence.denoiserLayout(), {.counters = true}, 1, false,
+                       pipelines);
   Result result;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     PackedFrame frame = packFrame(sequence.read(i));
@@ -104,6 +108,7 @@ std::vector<Row> rowsOf(const std::string& table) {
 TEST(MotionDepth, TheGuideTellsWhatFindingItCosts) {
   const TemporaryDirectory folder;
   GpuDevice device({.device = {}, .validation = true});
+  const fg::vk::Membership pipelines{std::make_shared<fg::vk::SharedObjects>(device.device().context())};
   std::vector<Row> measured;
   for (const int framesPerSecond : {24, 6}) {
     render::RenderOptions options;
@@ -112,9 +117,9 @@ TEST(MotionDepth, TheGuideTellsWhatFindingItCosts) {
     options.lastFrame = kFrames - 1;
     options.framesPerSecond = framesPerSecond;
     renderSequence(options, {});
-    const Result given = denoised(device, options.output, MotionDepth::Given);
-    const Result still = denoised(device, options.output, MotionDepth::StaticScene);
-    const Result found = denoised(device, options.output, MotionDepth::Found);
+    const Result given = denoised(device, pipelines, options.output, MotionDepth::Given);
+    const Result still = denoised(device, pipelines, options.output, MotionDepth::StaticScene);
+    const Result found = denoised(device, pipelines, options.output, MotionDepth::Found);
     // Finding depth is off by no more than a tenth of what it is for.
     EXPECT_NEAR(found.withoutHistory, given.withoutHistory, 0.1 * (still.withoutHistory - given.withoutHistory));
     measured.push_back({double(framesPerSecond), given.withoutHistory, still.withoutHistory, found.withoutHistory,
