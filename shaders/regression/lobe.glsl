@@ -1,5 +1,5 @@
-// The lobe of a pixel's specular light, of which the regression over blocks takes its features (passes/SPECULAR.md, "The filter
-// light"): the mirrored direction in place of the normal, the distance of the virtual image in place of the depth, and
+// The lobe of a pixel's specular light, of which the regression over blocks takes its features (passes/SPECULAR.md):
+// the mirrored direction in place of the normal, the distance of the virtual image in place of the depth, and
 // roughness in place of ambient occlusion.
 #ifndef WALR_BLOCK_LOBE_GLSL
 #define WALR_BLOCK_LOBE_GLSL
