@@ -1,5 +1,7 @@
 #include "integration/denoise_graph.h"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,13 +34,47 @@ void checkLight(const LightPattern& light, const HostConventions& host) {
   }
 }
 
+/// The kinds of light that a graph has.
+struct LightKinds {
+  bool diffuse = false;
+  bool specular = false;
+
+  [[nodiscard]] bool have(const HostInput& input) const {
+    return input.of == HostInput::Of::EveryLight || (input.of == HostInput::Of::DiffuseLight ? diffuse : specular);
+  }
+};
+
 /// The number of channels of an input that are read.
-std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
+std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, LightKinds kinds,
+                           const HostConventions& host) {
   const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
-  if (input.texture == &DenoiserInputs::lighting && conventions.samples().hasAlpha()) return 4;
+  if (input.texture == &DenoiserInputs::lighting && (kinds.specular || conventions.light.hasAlpha())) return 4;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;
+}
+
+/// `importInputs` for several lights.
+DenoiserInputs importAll(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions, LightKinds kinds,
+                         const fg::ExternalState& state, std::span<const VkFormat> formats,
+                         const HostConventions& host) {
+  checkLight(conventions.light, host);
+  DenoiserInputs inputs;
+  for (std::size_t i = 0; i < kHostInputs.size(); ++i) {
+    const HostInput& input = kHostInputs[i];
+    if (!kinds.have(input)) continue;
+    const VkFormat usual = input.optional ? VK_FORMAT_UNDEFINED : input.format;
+    const VkFormat format = formats.empty() ? usual : formats[i];
+    if (input.optional && format == VK_FORMAT_UNDEFINED) continue;
+    requireInputFormat(input, format, channelsRead(input, conventions, kinds, host));
+    const bool isLight = input.texture == &DenoiserInputs::lighting;
+    const fg::Extent size = isLight ? conventions.light.lightingExtent(extent) : extent;
+    inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = size}, state);
+  }
+  inputs.frame = graph.upload(std::string(kFrameName), sizeof(FrameConstants));
+  inputs.conventions = conventions;
+  inputs.scene.resizing = host.rectangle;
+  return inputs;
 }
 
 }  // namespace
@@ -46,26 +82,8 @@ std::uint32_t channelsRead(const HostInput& input, const InputConventions& conve
 DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConventions& conventions,
                             const fg::ExternalState& state, std::span<const VkFormat> formats,
                             const HostConventions& host) {
-  checkLight(conventions.light, host);
-  DenoiserInputs inputs;
-  for (std::size_t i = 0; i < kHostInputs.size(); ++i) {
-    const HostInput& input = kHostInputs[i];
-    const VkFormat usual = input.optional ? VK_FORMAT_UNDEFINED : input.format;
-    const VkFormat format = formats.empty() ? usual : formats[i];
-    if (input.optional && format == VK_FORMAT_UNDEFINED) continue;
-    requireInputFormat(input, format, channelsRead(input, conventions, host));
-    const bool isLight = input.texture == &DenoiserInputs::lighting;
-    const fg::Extent size = isLight ? conventions.light.lightingExtent(extent) : extent;
-    inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = size}, state);
-  }
-  if (conventions.specular) {
-    inputs.roughness =
-        graph.import(std::string(kRoughnessName), {.format = VK_FORMAT_R8_UNORM, .extent = extent}, state);
-  }
-  inputs.frame = graph.upload(std::string(kFrameName), sizeof(FrameConstants));
-  inputs.conventions = conventions;
-  inputs.scene.resizing = host.rectangle;
-  return inputs;
+  const LightKinds kinds{.diffuse = !conventions.specular, .specular = conventions.specular};
+  return importAll(graph, extent, conventions, kinds, state, formats, host);
 }
 
 void checkOrthographic(const InputConventions& conventions, const HostConventions& host, bool lint) {
@@ -179,49 +197,55 @@ void declareCounts(DenoiseGraph& declared, const DenoiserInputs& inputs, const D
 
 }  // namespace
 
-DenoiseGraph declareDenoiseGraph(std::span<Denoiser* const> methods, fg::Extent extent,
+DenoiseGraph declareDenoiseGraph(std::span<const DenoisedLight> lights, fg::Extent extent,
                                  const InputConventions& conventions, const HostStates& states,
                                  std::span<const VkFormat> formats, const HostConventions& host,
                                  const InspectionWish& wanted) {
-  if (methods.empty() || methods.size() > kMostLights) {
-    throw std::invalid_argument("a graph of " + std::to_string(methods.size()) + " lights: it takes 1 to " +
+  if (lights.empty() || lights.size() > kMostLights) {
+    throw std::invalid_argument("a graph of " + std::to_string(lights.size()) + " lights: it takes 1 to " +
                                 std::to_string(kMostLights));
   }
-  if (conventions.specular && methods.size() > 1) {
-    throw std::invalid_argument("specular light shares no guides with another light: declare a graph for it alone");
-  }
-  checkOrthographic(conventions, host, wanted.lint);
+  const auto specular = static_cast<std::size_t>(std::ranges::count(lights, true, &DenoisedLight::specular));
+  const LightKinds kinds{.diffuse = specular<lights.size(), .specular = specular> 0};
+  InputConventions stated = conventions;
+  stated.specular = kinds.specular;
+  checkOrthographic(stated, host, wanted.lint);
+  stated.specular = lights.front().specular;
   const Declaring all{states, host, wanted};
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;
-  declared.inputs = importInputs(graph, extent, conventions, states.inputs, formats, host);
+  declared.inputs = importAll(graph, extent, stated, kinds, states.inputs, formats, host);
   if (host.differs()) declared.host = graph.upload(std::string(kHostName), sizeof(HostConstants));
   LightImages& first = declared.lights.emplace_back();
   first.lighting = declared.inputs.lighting;
   first.confidence = declared.inputs.confidence;
   importResults(graph, first, kLightNames.front(), extent, all);
   const DenoiserInputs inputs = addConvertInputs(graph, declared.inputs, host, declared.host);
-  wantViews(graph, declared.inspection, 0, methods.size(), extent, all);
+  wantViews(graph, declared.inspection, 0, lights.size(), extent, all);
   declareCounts(declared, inputs, all);
 
-  SharedGuides guides;
-  SharedLight shared{.guides = methods.size() > 1 ? &guides : nullptr};
-  addLight(declared, *methods.front(), inputs, first, declared.inspection, shared, all);
+  std::array<SharedGuides, 2> guides;  // Of diffuse and of specular light.
+  const auto sharedBy = [&](const DenoisedLight& light, std::string_view prefix) {
+    const bool alone = std::ranges::count(lights, light.specular, &DenoisedLight::specular) == 1;
+    return SharedLight{.guides = alone ? nullptr : &guides.at(light.specular ? 1 : 0), .prefix = prefix};
+  };
+  addLight(declared, *lights.front().method, inputs, first, declared.inspection, sharedBy(lights.front(), {}), all);
   keepViews(declared, declared.inspection, kLightNames.front(), all);
   if (!declared.inspection.counters().empty()) {
     graph.exported(declared.inspection.counterBuffer(), states.outputAfter);
   }
-  for (std::size_t i = 1; i < methods.size(); ++i) {
+  for (std::size_t i = 1; i < lights.size(); ++i) {
     const LightNames& names = kLightNames.at(i);
     const LightImages light = importLight(graph, declared.lights.front(), names, extent, all);
-    shared.prefix = names.passes;
+    const SharedLight shared = sharedBy(lights[i], names.passes);
     Inspection inspection;
-    wantViews(graph, inspection, i, methods.size(), extent, all);
+    wantViews(graph, inspection, i, lights.size(), extent, all);
     DenoiserInputs own = inputs;
     own.lighting = light.lighting;
     own.confidence = light.confidence;
+    own.conventions.specular = lights[i].specular;
     own = addConvertLight({graph, inspection, shared}, own, host, declared.host);
-    addLight(declared, *methods[i], own, light, inspection, shared, all);
+    addLight(declared, *lights[i].method, own, light, inspection, shared, all);
     keepViews(declared, inspection, names, all);
     declared.lights.push_back(light);
   }
@@ -231,8 +255,8 @@ DenoiseGraph declareDenoiseGraph(std::span<Denoiser* const> methods, fg::Extent 
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats,
                                  const HostConventions& host, const InspectionWish& wanted) {
-  Denoiser* const methods[] = {&method};
-  return declareDenoiseGraph(methods, extent, conventions, states, formats, host, wanted);
+  const DenoisedLight lights[] = {{&method, conventions.specular}};
+  return declareDenoiseGraph(lights, extent, conventions, states, formats, host, wanted);
 }
 
 }  // namespace walr

@@ -13,10 +13,18 @@
 
 namespace walr {
 
+/// A light to denoise, and what denoises it.
+struct DenoisedLight {
+  Denoiser* method;
+  bool specular = false;  ///< See `InputConventions::specular`.
+};
+
 /// A graph that denoises one light, or several that share their guides, and nothing else. The host owns its textures.
 struct DenoiseGraph {
   fg::Graph graph;
-  DenoiserInputs inputs;            ///< Imports with the host's conventions, of the first light; `frame` is an upload.
+  /// Imports with the host's conventions: what all lights read, and the first one's light and confidence; `frame` is an
+  /// upload.
+  DenoiserInputs inputs;
   fg::Buffer host;                  ///< Upload of `HostConstants`; invalid if no input is converted.
   std::vector<LightImages> lights;  ///< In the order of the methods; at least one.
   std::vector<DebugView> views;     ///< The requested ones of all lights, in imports that receive them.
@@ -59,19 +67,21 @@ DenoiserInputs importInputs(fg::Graph& graph, fg::Extent extent, const InputConv
 /// @throws std::invalid_argument naming what an orthographic camera does not allow
 void checkOrthographic(const InputConventions& conventions, const HostConventions& host, bool lint);
 
-/// Declare methods between the host's textures, one a light. The guides are prepared once. All else is each light's
-/// own, and its names begin with those of `kLightNames`. All lights have textures of the same formats.
-/// @param methods 1 to `kMostLights`, with their own settings
+/// Declare methods between the host's textures, one a light. The guides are prepared once for diffuse and once for
+/// specular light, because pixels of other surfaces have these lobes. All else is each light's own, and its names begin
+/// with those of `kLightNames`. All lights have textures of the same formats.
+/// @param lights  1 to `kMostLights`, whose methods have their own settings
+/// @param conventions without `specular`, which each light states
 /// @param formats see `importInputs`
 /// @param host    conventions of the textures; what differs from `DenoiserInputs` is converted first
 /// @param wanted  further outputs, in imports with the states of the result
 /// @throws std::invalid_argument naming a setting of a method that is out of range, an input whose format cannot be
 ///         used, or an unknown view, or saying why the lights cannot share guides
-DenoiseGraph declareDenoiseGraph(std::span<Denoiser* const> methods, fg::Extent extent,
+DenoiseGraph declareDenoiseGraph(std::span<const DenoisedLight> lights, fg::Extent extent,
                                  const InputConventions& conventions, const HostStates& states,
                                  std::span<const VkFormat> formats = {}, const HostConventions& host = {},
                                  const InspectionWish& wanted = {});
-/// The same of one light.
+/// The same of one light, whose kind is stated by `conventions`.
 DenoiseGraph declareDenoiseGraph(Denoiser& method, fg::Extent extent, const InputConventions& conventions,
                                  const HostStates& states, std::span<const VkFormat> formats = {},
                                  const HostConventions& host = {}, const InspectionWish& wanted = {});

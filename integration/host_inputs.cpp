@@ -34,7 +34,7 @@ std::uint32_t integerChannels(const fg::FormatInfo& format) {
 
 }  // namespace
 
-const std::array<HostInput, 7> kHostInputs{{
+const std::array<HostInput, 9> kHostInputs{{
     {kLightingName, &DenoiserInputs::lighting, kColour, 3,
      "Noisy diffuse indirect radiance without the first hit's albedo, linear, 1 sample per pixel"},
     {"depth", &DenoiserInputs::depth, VK_FORMAT_R32_SFLOAT, 1,
@@ -43,11 +43,17 @@ const std::array<HostInput, 7> kHostInputs{{
     {"motion", &DenoiserInputs::motion, kColour, 3,
      "xy: where the surface was in the previous frame, minus where it is; z: previous minus current view depth"},
     {"albedo", &DenoiserInputs::albedo, kColour, 3,
-     "Diffuse albedo of the first hit; pixels without any are passed through"},
+     "Diffuse albedo of the first hit; pixels without any are passed through", false, HostInput::Of::DiffuseLight},
     {"object_id", &DenoiserInputs::objectId, VK_FORMAT_R32_UINT, 1,
      "Number of the object that the pixel shows, the same from frame to frame; 0xffffffff: none", true},
     {kConfidenceName, &DenoiserInputs::confidence, VK_FORMAT_R8_UNORM, 1,
      "How much of its history a pixel may use: 0 is none, 1 all of it", true},
+    {"specular_albedo", &DenoiserInputs::specularAlbedo, kColour, 3,
+     "For specular light: directional albedo of the specular lobe; pixels without any are passed through", false,
+     HostInput::Of::SpecularLight},
+    {"roughness", &DenoiserInputs::roughness, VK_FORMAT_R8_UNORM, 1,
+     "For specular light: linear roughness as in glTF, whose square is GGX's alpha", false,
+     HostInput::Of::SpecularLight},
 }};
 
 const HostInput* hostInputNamed(std::string_view name) {

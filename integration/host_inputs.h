@@ -10,6 +10,7 @@ namespace walr {
 
 /// One input texture of a denoiser: a member of `DenoiserInputs` with its name.
 struct HostInput {
+  enum class Of : std::uint8_t { EveryLight, DiffuseLight, SpecularLight };
   std::string_view name;
   fg::Texture DenoiserInputs::*texture;
   VkFormat format;  ///< The usual one. Others are accepted if they have the channels and are sampled as the same type:
@@ -17,19 +18,19 @@ struct HostInput {
   std::uint32_t channels;  ///< Channels read.
   std::string_view description;
   bool optional = false;  ///< A host need not have it.
+  Of of = Of::EveryLight;
 };
 
 /// The textures of `DenoiserInputs`.
-extern const std::array<HostInput, 7> kHostInputs;
+extern const std::array<HostInput, 9> kHostInputs;
 
 /// The input with a name; null if there is none.
 const HostInput* hostInputNamed(std::string_view name);
 
-/// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, of `DenoiserInputs::roughness`,
-/// and of the first light's textures; those of another light have `LightNames::images` before them.
+/// Names of the upload buffer `DenoiserInputs::frame`, of the one with `HostConstants`, and of the first light's
+/// textures; those of another light have `LightNames::images` before them.
 inline constexpr std::string_view kFrameName = "frame";
 inline constexpr std::string_view kHostName = "host";
-inline constexpr std::string_view kRoughnessName = "roughness";
 inline constexpr std::string_view kLightingName = "lighting";
 inline constexpr std::string_view kConfidenceName = "confidence";
 inline constexpr std::string_view kOutputName = "denoised";

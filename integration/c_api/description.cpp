@@ -95,9 +95,13 @@ std::unique_ptr<PassNode> stageNamed(std::string_view name) {
 /// Where a host says the preset of each light; that of the first counts for all that have none.
 constexpr std::array<const char * WalrDenoiserInfo::*, kMostLights> kPresets{&WalrDenoiserInfo::preset,
                                                                              &WalrDenoiserInfo::second_preset};
+/// And the kind of each light.
+constexpr std::array<WalrLightKind WalrDenoiserInfo::*, kMostLights> kLightKinds{&WalrDenoiserInfo::light_kind,
+                                                                                 &WalrDenoiserInfo::second_light_kind};
 
-/// @throws Error saying why there cannot be as many lights
-std::size_t checkedLightCount(const WalrDenoiserInfo& info) {
+/// The kinds of all lights.
+/// @throws Error saying why there cannot be as many lights, or that a light is of no kind
+std::vector<WalrLightKind> checkedLights(const WalrDenoiserInfo& info) {
   const std::size_t count = std::max<std::size_t>(info.light_count, 1);
   if (count > kMostLights) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::light_count is " + std::to_string(count) +
@@ -106,26 +110,40 @@ std::size_t checkedLightCount(const WalrDenoiserInfo& info) {
                                                  "WalrDenoiserInfo::shared_with");
   }
   for (std::size_t i = count; i < kMostLights; ++i) {
-    if (info.*kPresets.at(i) == nullptr) continue;
-    throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrDenoiserInfo::" + std::string(kLightNames.at(i).images) +
-                                                 "preset is given, but there are fewer lights: set light_count to " +
-                                                 std::to_string(i + 1));
+    const bool preset = info.*kPresets.at(i) != nullptr;
+    if (!preset && info.*kLightKinds.at(i) == WALR_LIGHT_DIFFUSE) continue;
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "WalrDenoiserInfo::" + std::string(kLightNames.at(i).images) + (preset ? "preset" : "light_kind") +
+                    " is given, but there are fewer lights: set light_count to " + std::to_string(i + 1));
   }
-  return count;
+  std::vector<WalrLightKind> kinds;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = "WalrDenoiserInfo::" + std::string(kLightNames.at(i).images) + "light_kind";
+    kinds.push_back(checkedEnum(info.*kLightKinds.at(i), WALR_LIGHT_SPECULAR, name.c_str()));
+  }
+  const bool formats =
+      info.specular_albedo_format != VK_FORMAT_UNDEFINED || info.roughness_format != VK_FORMAT_UNDEFINED;
+  if (formats && std::ranges::count(kinds, WALR_LIGHT_SPECULAR) == 0) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "WalrDenoiserInfo::specular_albedo_format or roughness_format is given, but no light is specular: set "
+                "light_kind or second_light_kind to WALR_LIGHT_SPECULAR");
+  }
+  return kinds;
 }
 
 /// A method for each light; none for a stage.
-std::vector<std::unique_ptr<Denoiser>> makeMethods(const WalrDenoiserInfo& info, const std::string& name, bool stage) {
-  const std::size_t count = checkedLightCount(info);
-  if (stage && count == 1) return {};
+std::vector<std::unique_ptr<Denoiser>> makeMethods(std::span<const WalrLightKind> lights, const std::string& name,
+                                                   bool stage) {
+  if (stage && lights.size() == 1) return {};
   if (stage) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT, "stage '" + name +
                                                  "' has one light: set WalrDenoiserInfo::light_count "
                                                  "for a whole method");
   }
   std::vector<std::unique_ptr<Denoiser>> methods;
-  for (std::size_t i = 0; i < count; ++i) methods.push_back(makeDenoiser(name));
-  if (count > 1 && !methods.front()->sharesGuides()) {
+  for (std::size_t i = 0; i < lights.size(); ++i) methods.push_back(makeDenoiser(name));
+  const bool shares = lights.size() > 1 && lights.front() == lights.back();
+  if (shares && !methods.front()->sharesGuides()) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT,
                 "method '" + name +
                     "' has no guides that lights could share: leave "
@@ -155,13 +173,16 @@ const WalrCamera& checkedCamera(const WalrCamera& camera) {
 
 Description::Description(const WalrDenoiserInfo& info, Of of)
     : methodName_(info.method == nullptr ? "walr" : info.method),
+      lightKinds_(checkedLights(info)),
       stage_(of == Of::MethodsAndStages ? stageNamed(methodName_) : nullptr),
-      methods_(makeMethods(info, methodName_, stage_ != nullptr)),
+      methods_(makeMethods(lightKinds_, methodName_, stage_ != nullptr)),
       extent_(checkedExtent(info.width, info.height)),
       conventions_(checkedConventions(info.conventions)),
-      formats_{formatOr(info.lighting_format, 0),  formatOr(info.depth_format, 1),  formatOr(info.normal_format, 2),
-               formatOr(info.motion_format, 3),    formatOr(info.albedo_format, 4), formatOr(info.object_id_format, 5),
-               formatOr(info.confidence_format, 6)},
+      formats_{formatOr(info.lighting_format, 0),   formatOr(info.depth_format, 1),
+               formatOr(info.normal_format, 2),     formatOr(info.motion_format, 3),
+               formatOr(info.albedo_format, 4),     formatOr(info.object_id_format, 5),
+               formatOr(info.confidence_format, 6), formatOr(info.specular_albedo_format, 7),
+               formatOr(info.roughness_format, 8)},
       resultFormat_(checkedResultFormat(info.denoised_format)),
       historyLength_(info.history_length == VK_TRUE),
       lightDirection_(info.light_direction == VK_TRUE),
@@ -172,10 +193,13 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
   for (std::size_t i = 1; i < methods_.size(); ++i) {
     if (const char* own = info.*kPresets.at(i); own != nullptr) methods_[i]->usePreset(own);
   }
-  checkOrthographic(inputConventions(), hostConventions(), info.lint == VK_TRUE);
-  // Refuse wrong formats here and not when the first frame is recorded.
-  fg::Graph scratch;
-  (void)importInputs(scratch, extent_, inputConventions(), kInnerStates.inputs, formats_, hostConventions());
+  for (std::size_t i = 0; i < lightKinds_.size(); ++i) {
+    const InputConventions conventions = inputConventions(i);
+    checkOrthographic(conventions, hostConventions(), info.lint == VK_TRUE);
+    // Refuse wrong formats here and not when the first frame is recorded.
+    fg::Graph scratch;
+    (void)importInputs(scratch, extent_, conventions, kInnerStates.inputs, formats_, hostConventions());
+  }
 }
 
 void Description::resize(std::uint32_t width, std::uint32_t height) {
@@ -187,9 +211,10 @@ DenoiseGraph Description::declare(const InspectionWish& wanted) const {
   all.historyLength = historyLength_;
   all.lightDirection = lightDirection_;
   all.expectedError = expectedError_;
-  std::vector<Denoiser*> methods;
-  for (const std::unique_ptr<Denoiser>& method : methods_) methods.push_back(method.get());
-  return declareDenoiseGraph(methods, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
+  std::vector<DenoisedLight> lights;
+  for (const std::unique_ptr<Denoiser>& method : methods_)
+    lights.push_back({method.get(), lightKinds_[lights.size()] == WALR_LIGHT_SPECULAR});
+  return declareDenoiseGraph(lights, extent_, inputConventions(), kInnerStates, formats_, hostConventions(), all);
 }
 
 ListedGraph Description::list(std::span<const WalrPortFormat> ports, const InspectionWish& wanted) const {
@@ -221,13 +246,13 @@ ListedGraph Description::list(std::span<const WalrPortFormat> ports, const Inspe
 }
 
 ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const {
-  if (hostConventions().differs() || !inputConventions().light.everyPixel()) {
+  if (hostConventions().differs() || !inputConventions().samples().everyPixel()) {
     throw Error(
         WALR_ERROR_INVALID_ARGUMENT,
         "stage '" + methodName_ +
             "' takes linear depth, signed normals, motion_depth as given, found or of a static scene, no pre-exposure, "
-            "no rectangle, no orthographic camera, no sparse light and no denoised_format: convert the images "
-            "yourself, or use a whole method");
+            "no rectangle, no orthographic camera, no sparse light, no specular light and no denoised_format: convert "
+            "the images yourself, or use a whole method");
   }
   PortFormats formats;
   for (const Port& port : stage_->ports()) {
@@ -290,7 +315,7 @@ HostConventions Description::hostConventions() const {
           .result = resultFormat_};
 }
 
-InputConventions Description::inputConventions() const {
+InputConventions Description::inputConventions(std::size_t light) const {
   using MotionDepth = InputConventions::MotionDepth;
   const WalrMotionDepth motionDepth = conventions_.motion_depth;
   return {.normal = conventions_.normal_space == WALR_SPACE_WORLD ? InputConventions::Space::World
@@ -299,6 +324,7 @@ InputConventions Description::inputConventions() const {
                          : motionDepth == WALR_MOTION_DEPTH_FOUND      ? MotionDepth::Found
                                                                        : MotionDepth::Given,
           .motionJittered = conventions_.motion_jittered == VK_TRUE,
+          .specular = lightKinds_.at(light) == WALR_LIGHT_SPECULAR,
           .light = {.columns = conventions_.light_group[0],
                     .rows = conventions_.light_group[1],
                     .masked = conventions_.light_masked == VK_TRUE,

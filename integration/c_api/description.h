@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -85,13 +86,16 @@ class Description {
   [[nodiscard]] DenoiseGraph declare(const InspectionWish& wanted = {}) const;
   /// Views of the method with its current settings.
   /// @throws std::invalid_argument naming settings that contradict each other
-  [[nodiscard]] std::vector<ViewInfo> views() const { return methods_.front()->views(); }
+  [[nodiscard]] std::vector<ViewInfo> views() const {
+    return methods_.front()->views({.specular = lightKinds_.front() == WALR_LIGHT_SPECULAR});
+  }
   /// A graph of the method or the stage between the host's images.
   /// @param ports  formats of the images that are connected to a stage's other inputs; empty for a method
   /// @param wanted further outputs of a method, for debugging; no views
   /// @throws as `declare` does; also naming an unknown port, or conventions that a stage does not accept
   [[nodiscard]] ListedGraph list(std::span<const WalrPortFormat> ports, const InspectionWish& wanted) const;
-  [[nodiscard]] InputConventions inputConventions() const;
+  /// Conventions of a light.
+  [[nodiscard]] InputConventions inputConventions(std::size_t light = 0) const;
 
   /// Constants of the next frame.
   /// @throws Error, or std::invalid_argument, naming what is invalid
@@ -112,6 +116,9 @@ class Description {
   void usePreset(std::string_view name);
   /// Number of lights; 0 for a stage.
   [[nodiscard]] std::size_t lightCount() const { return methods_.size(); }
+  /// Kinds of the lights that there are.
+  [[nodiscard]] const std::vector<WalrLightKind>& lightKinds() const { return lightKinds_; }
+  [[nodiscard]] bool hasSpecularLight() const { return std::ranges::count(lightKinds_, WALR_LIGHT_SPECULAR) > 0; }
   /// Name of the method or the stage.
   [[nodiscard]] const std::string& methodName() const { return methodName_; }
   [[nodiscard]] fg::Extent extent() const { return extent_; }
@@ -138,6 +145,7 @@ class Description {
   [[nodiscard]] glm::ivec2 checkedLightOffset(glm::uvec2 offset) const;
 
   std::string methodName_;
+  std::vector<WalrLightKind> lightKinds_;           ///< Of each light; also of that of a stage.
   std::unique_ptr<PassNode> stage_;                 ///< Null for methods.
   std::vector<std::unique_ptr<Denoiser>> methods_;  ///< That of each light; none for a stage.
   fg::Extent extent_;

@@ -113,7 +113,9 @@ constexpr std::array kSharedMembers{SharedMember{&DenoiserInputs::depth, &WalrFr
                                     SharedMember{&DenoiserInputs::normal, &WalrFrame::normal},
                                     SharedMember{&DenoiserInputs::motion, &WalrFrame::motion},
                                     SharedMember{&DenoiserInputs::albedo, &WalrFrame::albedo},
-                                    SharedMember{&DenoiserInputs::objectId, &WalrFrame::object_id}};
+                                    SharedMember{&DenoiserInputs::objectId, &WalrFrame::object_id},
+                                    SharedMember{&DenoiserInputs::specularAlbedo, &WalrFrame::specular_albedo},
+                                    SharedMember{&DenoiserInputs::roughness, &WalrFrame::roughness}};
 
 /// A slot for an image of a light.
 /// @param name of the first light's image
@@ -214,7 +216,7 @@ void markRepeated(FrameImages& images) {
 
 FrameImage checkedImage(std::size_t index, const WalrImage* given, const ImageNeeds& needs, std::uint32_t queueFamily) {
   if (!needs.used) return {};
-  if (given == nullptr) reject(index, "is null");
+  if (given == nullptr) reject(index, "is null, but the denoiser uses it: see WalrFrame");
   WalrImage image = readStruct(given, "WalrImage");
   if (image.image == VK_NULL_HANDLE) reject(index, "has a null VkImage");
   if (image.format != needs.format) {

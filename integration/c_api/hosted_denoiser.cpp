@@ -53,8 +53,9 @@ HostedDenoiser::HostedDenoiser(const WalrDenoiserInfo& info, const HostedDenoise
       log_(info.log),
       logUser_(info.log_user) {
   device().requireResultFormat(description_.resultFormat());
-  // An output that the method does not have is refused here and not in the first frame.
-  if (info.history_length == VK_TRUE || info.light_direction == VK_TRUE || info.expected_error == VK_TRUE) {
+  // An output or a light that the method does not have is refused here and not in the first frame.
+  if (info.history_length == VK_TRUE || info.light_direction == VK_TRUE || info.expected_error == VK_TRUE ||
+      description_.hasSpecularLight()) {
     (void)declareGraph(std::nullopt);
   }
 }
@@ -220,6 +221,12 @@ FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
                   "WalrFrame has the image '" + slot.name() + "', but the denoiser is for " +
                       std::to_string(description_.lightCount()) + " light: create it with " +
                       "WalrDenoiserInfo::light_count of " + std::to_string(slot.light + 1));
+    }
+    if (given != nullptr && i < kHostInputs.size() && kHostInputs.at(i).of == HostInput::Of::SpecularLight &&
+        !description_.hasSpecularLight()) {
+      throw Error(WALR_ERROR_INVALID_ARGUMENT, "WalrFrame has the image '" + slot.name() +
+                                                   "', but no light is specular: create the denoiser with " +
+                                                   "WalrDenoiserInfo::light_kind of WALR_LIGHT_SPECULAR");
     }
     ImageNeeds needs = declared_->needs[i];
     if (description_.rectangle() && slot.role != ImageRole::Inspection)

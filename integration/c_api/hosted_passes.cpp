@@ -65,6 +65,13 @@ void HostedPasses::continueFrom(const HostedPasses& last) {
                                                  last.description_.methodName() +
                                                  "': create both with the same method and conventions");
   }
+  const std::vector<WalrLightKind>&kinds = description_.lightKinds(), &before = last.description_.lightKinds();
+  if (!std::equal(kinds.begin(), kinds.begin() + std::ptrdiff_t(std::min(kinds.size(), before.size())),
+                  before.begin())) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "the passes to continue from are of another kind of light: create both with the same "
+                "WalrDenoiserInfo::light_kind and second_light_kind");
+  }
   const bool resizes = description_.rectangle() && last.description_.rectangle();
   if (!resizes && description_.extent() != last.description_.extent()) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT,

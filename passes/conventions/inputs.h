@@ -52,15 +52,17 @@ struct DenoiserInputs {
   /// R8_UNORM, or another format of floats: how much of its history a pixel may use, 0 to 1. If present, it scales the
   /// longest history of light; NaN counts as 1.
   fg::Texture confidence = {};
-  /// R8_UNORM: linear roughness (glTF). Of specular light only (`InputConventions::specular`). The other textures then
-  /// differ: the lighting is the light that the specular lobe reflects, over the lobe's directional albedo, and its
-  /// alpha is the distance from the surface to what it reflects, scene units, 0 where there is no sample; `albedo` is
-  /// that of the specular lobe.
-  fg::Texture roughness = {};
-  fg::Buffer frame;  ///< Upload of `FrameConstants` (passes/conventions/frame.h).
+  /// The next two are of specular light only (`InputConventions::specular`). The lighting is then the light that the
+  /// specular lobe reflects, over the lobe's directional albedo, and its alpha is the distance from the surface to what
+  /// it reflects, scene units, 0 where there is no sample.
+  fg::Texture specularAlbedo = {};  ///< RGBA16F: directional albedo of the specular lobe, in the place of `albedo`.
+  fg::Texture roughness = {};       ///< R8_UNORM, or another format of floats: linear roughness (glTF).
+  fg::Buffer frame;                 ///< Upload of `FrameConstants` (passes/conventions/frame.h).
   InputConventions conventions;
   SceneDescription scene = {};
 
+  /// Albedo of the lobe that the light belongs to.
+  [[nodiscard]] fg::Texture lobeAlbedo() const { return conventions.specular ? specularAlbedo : albedo; }
   /// Extent of the image.
   [[nodiscard]] fg::Extent extent(const fg::Graph& graph) const {
     return graph.textureDesc(conventions.light.fullSize() ? lighting : depth).extent;

@@ -112,9 +112,12 @@ DenoiserInputs addConvertInputs(StageGraph graph, DenoiserInputs inputs, const H
     inputs.motion = convertMotion(graph, inputs.motion, conventions.motionDepthReversed, host);
   }
   inputs = addConvertLight(graph, inputs, conventions, host);
-  if (all) inputs.albedo = convertColour(graph, "albedo", inputs.albedo, false, host);
-  if (all && inputs.roughness.valid())
-    inputs.roughness = convertColour(graph, "roughness", inputs.roughness, false, host);
+  const auto move = [&](const char* what, fg::Texture& texture) {
+    if (all && texture.valid()) texture = convertColour(graph, what, texture, false, host);
+  };
+  move("albedo", inputs.albedo);
+  move("specular albedo", inputs.specularAlbedo);
+  move("roughness", inputs.roughness);
   if (all && inputs.objectId.valid()) {
     inputs.objectId = convert(graph, "object numbers", shaders::convertInputNumbers, inputs.objectId, host)
                           .store("target", converted(graph, "object numbers", VK_FORMAT_R32_UINT, inputs.objectId));

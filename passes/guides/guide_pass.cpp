@@ -87,7 +87,7 @@ void readGBuffer(fg::PassBuilder& pass, const DenoiserInputs& inputs, const Prep
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
       .specialize("kSky", inputs.scene.sky)
       .specialize("kDiffuseMask", isMasked(settings))
-      .sampleIf(isMasked(settings), "albedo", inputs.albedo, inputs.normal);
+      .sampleIf(isMasked(settings), "albedo", inputs.lobeAlbedo(), inputs.normal);
 }
 
 bool geometricNormalIsApart(const GuideNeeds& needs) {

@@ -73,7 +73,8 @@ std::vector<LintFinding> InputLinter::findings() const {
   judge.judgeValues();
   judge.judgeNormals();
   judge.judgeMotion();
-  judge.judgeAlbedo();
+  // Where specular albedo differs, roughness may, and with it the light.
+  if (!conventions_.specular) judge.judgeAlbedo();
   return judge.take();
 }
 

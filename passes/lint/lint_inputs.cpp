@@ -22,7 +22,7 @@ fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buf
       .sample("depth", inputs.depth)
       .sample("normal", inputs.normal)
       .sample("motion", inputs.motion)
-      .sample("albedo", inputs.albedo)
+      .sample("albedo", inputs.lobeAlbedo())
       .dispatch(extent);
   if (inputs.conventions.light.fullSize()) pass.texels(extent);
   specializeLight(pass, inputs.conventions.samples());

@@ -97,7 +97,8 @@ void LintJudge::judgeValues() {
     const std::string of = rule.of == kLintPixels ? "pixels" : "pixels with a surface";
     add({rule.name, rule.what + share(count, whole, of), rule.cause, rule.wayOut});
   }
-  if (counts_[kLintFireflies] > 0) {
+  // A highlight of specular light may be a single pixel.
+  if (counts_[kLintFireflies] > 0 && !conventions_.specular) {
     add({"fireflies",
          "in " + std::to_string(counts_[kLintFireflies]) +
              " tiles of 8 x 8 pixels one sample is more than a hundred times as bright as all others together",
@@ -105,13 +106,16 @@ void LintJudge::judgeValues() {
          "sample such lights directly, or bound what a path may bring; methods with antilag hold such samples back "
          "(accumulation.fireflies)"});
   }
-  const bool noSamples = conventions_.light.hasAlpha() && counts_[kLintPixels] > 0 && counts_[kLintSamples] == 0;
+  const LightPattern samples = conventions_.samples();
+  const bool noSamples = samples.hasAlpha() && counts_[kLintPixels] > 0 && counts_[kLintSamples] == 0;
   if (noSamples) {
     add({"lighting-empty", "no texel of the lighting has an alpha above 0", "the lighting's alpha was not written",
-         "write 1, or the number of samples, where there is one, or do not state that the lighting has alpha "
-         "(WalrConventions::light_masked and light_counted)"});
+         conventions_.specular
+             ? "write the distance from the surface to what it reflects, 1e10 where the reflected ray met nothing"
+             : "write 1, or the number of samples, where there is one, or do not state that the lighting has alpha "
+               "(WalrConventions::light_masked and light_counted)"});
   }
-  if (conventions_.light.everyPixel() && counts_.litFrames() > 0 && 2 * counts_.halfLitFrames() > counts_.litFrames()) {
+  if (samples.everyPixel() && counts_.litFrames() > 0 && 2 * counts_.halfLitFrames() > counts_.litFrames()) {
     add({"lighting-half-empty",
          "every second pixel, column or row has no light in " + std::to_string(counts_.halfLitFrames()) + " of " +
              std::to_string(counts_.litFrames()) + " frames with light",
@@ -132,9 +136,9 @@ void LintJudge::judgeValues() {
          "write normals before the denoiser runs: without one a pixel passes through with its noise"});
   }
   if (surfaces >= kLeastLintSample && counts_[kLintDiffuse] == 0) {
-    add({"albedo-empty", "no pixel has a diffuse albedo of 0.01 or more",
-         "the albedo image was not written, or is another one",
-         "write the diffuse albedo: with guides.albedo-threshold above 0, a pixel without it passes through with its "
+    add({"albedo-empty", "no pixel has an albedo of 0.01 or more",
+         "the image of the albedo by which the light was divided was not written, or is another one",
+         "write that albedo: with guides.albedo-threshold above 0, a pixel without it passes through with its "
          "noise"});
   }
 }

@@ -211,8 +211,8 @@ std::vector<ViewInfo> Denoiser::views(const InputConventions& conventions) {
   inputs.depth = graph.texture("depth", {VK_FORMAT_R32_SFLOAT, kExtent});
   inputs.normal = graph.texture("normal", colour);
   inputs.motion = graph.texture("motion", colour);
-  inputs.albedo = graph.texture("albedo", colour);
-  if (conventions.specular) inputs.roughness = graph.texture("roughness", {VK_FORMAT_R8_UNORM, kExtent});
+  inputs.albedo = inputs.specularAlbedo = graph.texture("albedo", colour);
+  inputs.roughness = graph.texture("roughness", {VK_FORMAT_R8_UNORM, kExtent});
   inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
   inputs.conventions = conventions;
   Inspection inspection;

@@ -119,9 +119,9 @@ void printGraph(const GraphOptions& options) {
   InputConventions conventions;
   conventions.light = options.light;
   const std::unique_ptr<Denoiser> second = makeSecond(options);
-  std::vector<Denoiser*> methods{method.get()};
-  if (second != nullptr) methods.push_back(second.get());
-  const DenoiseGraph declared = declareDenoiseGraph(methods, extent, conventions, kComputeHost);
+  std::vector<DenoisedLight> lights{{method.get()}};
+  if (second != nullptr) lights.push_back({second.get()});
+  const DenoiseGraph declared = declareDenoiseGraph(lights, extent, conventions, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) {
     throw std::runtime_error("the method's frame graph does not compile:\n" + result.text());

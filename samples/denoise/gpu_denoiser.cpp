@@ -47,6 +47,13 @@ std::array<VkFormat, kHostInputs.size()> formatsOf(bool objectIds) {
   return formats;
 }
 
+/// The lights of a layout's kind that methods denoise.
+std::vector<DenoisedLight> lightsOf(std::span<Denoiser* const> methods, const Layout& layout) {
+  std::vector<DenoisedLight> lights;
+  for (Denoiser* const method : methods) lights.push_back({method, layout.conventions.specular});
+  return lights;
+}
+
 /// The first three components of RGBA32F texels.
 Image viewImage(std::span<const std::array<float, 4>> texels, int width, int height) {
   Image image(width, height, 3);
@@ -73,14 +80,14 @@ struct GpuDenoiser::State {
         const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds, const fg::vk::Membership& shared)
       : layout(frameLayout),
         declared(declareDenoiseGraph(
-            methods, extent, layout.conventions,
+            lightsOf(methods, frameLayout), extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable},
             formatsOf(objectIds), {}, wanted)),
         graph(gpu, declared.graph, framesInFlight, shared),
         depth(makeUpload(gpu, declared.inputs.depth, framesInFlight)),
         normal(makeUpload(gpu, declared.inputs.normal, framesInFlight)),
         motion(makeUpload(gpu, declared.inputs.motion, framesInFlight)),
-        albedo(makeUpload(gpu, declared.inputs.albedo, framesInFlight)) {
+        albedo(makeUpload(gpu, declared.inputs.lobeAlbedo(), framesInFlight)) {
     for (const LightImages& light : declared.lights) {
       lighting.push_back(makeUpload(gpu, light.lighting, framesInFlight));
       outputs.push_back(graph.readBack(light.output));

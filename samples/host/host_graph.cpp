@@ -154,7 +154,7 @@ fg::Texture addLit(HostGraph& host, Denoiser& method, DenoiserInputs inputs, con
   if (host.specular && method.takesSpecularLight()) {
     const std::string specular = prefix + std::string(kSpecularPrefix);
     inputs.lighting = host.specular->texture;
-    inputs.albedo = host.specularAlbedo->texture;
+    inputs.specularAlbedo = host.specularAlbedo->texture;
     inputs.roughness = host.roughness->texture;
     inputs.conventions.specular = true;
     const fg::Texture output = graph.texture(specular + "denoised", graph.textureDesc(denoised));

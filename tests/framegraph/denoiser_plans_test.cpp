@@ -198,7 +198,8 @@ TEST_P(DenoiserPlansTest, TwoLightsShareTheGuides) {
   const std::unique_ptr<Denoiser> first = make(GetParam());
   const std::unique_ptr<Denoiser> second = make(GetParam());
   const auto declare = [&] {
-    return declareDenoiseGraph(std::array{first.get(), second.get()}, kExtent, InputConventions{}, kComputeHost);
+    return declareDenoiseGraph(std::array<DenoisedLight, 2>{{{first.get()}, {second.get()}}}, kExtent,
+                               InputConventions{}, kComputeHost);
   };
   if (!first->sharesGuides()) {
     EXPECT_EQ(GetParam().method, "none");

@@ -31,6 +31,17 @@ std::vector<std::byte> bytesOf(const auto& texels) {
   return bytes;
 }
 
+/// The frame's light as that of a specular lobe, with some pixels that have no sample.
+HostFrame specularFrame(HostFrame frame) {
+  frame.conventions.specular = true;
+  frame.lightAlpha = frame.roughness = Image<double>(frame.size());
+  reference::forEachPixel(frame.size(), [&](glm::ivec2 p) {
+    frame.lightAlpha[p] = (p.x + p.y) % 5 == 0 ? 0.0 : 0.5 + 0.25 * (p.x % 4);
+    frame.roughness[p] = double(p.x * 255 / frame.size().x) / 255.0;
+  });
+  return frame;
+}
+
 /// Number of pixels that differ in any channel.
 int differing(const Image<glm::dvec4>& a, const Image<glm::dvec4>& b) {
   int count = 0;
@@ -63,6 +74,31 @@ TEST_P(CApiMethod, GivesThePixelsOfOurOwnExecutorThroughResetAndResize) {
     hosted.fill(frame);
     const Image<glm::dvec4> result = decodeHalves(hosted.frame(camera, flags), size);
     EXPECT_EQ(differing(result, own->frame(frame)), 0);
+  }
+}
+
+TEST_P(CApiMethod, GivesThePixelsOfOurOwnExecutorOnSpecularLight) {
+  const auto method = makeDenoiser(GetParam());
+  HostedRun::Options options;
+  options.specular = true;
+  std::unique_ptr<HostedRun> hosted;
+  try {
+    hosted = std::make_unique<HostedRun>(device(), GetParam().c_str(), kSize, options);
+  } catch (const std::runtime_error& refused) {
+    EXPECT_NE(std::string_view(refused.what()).find("method '" + GetParam() + "' takes diffuse light only"),
+              std::string_view::npos)
+        << refused.what();
+    EXPECT_THROW(DenoiserRun(device(), *method, kSize, {.specular = true}), std::invalid_argument);
+    return;
+  }
+  DenoiserRun own(device(), *method, kSize, {.specular = true});
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    SCOPED_TRACE("frame " + std::to_string(i));
+    const FrameDescription camera = walkingCamera(i, kSize);
+    const HostFrame frame = specularFrame(renderFrame(sphere(), camera, kSize));
+    hosted->fill(frame);
+    const Image<glm::dvec4> result = decodeHalves(hosted->frame(camera), kSize);
+    EXPECT_EQ(differing(result, own.frame(frame)), 0);
   }
 }
 INSTANTIATE_TEST_SUITE_P(Methods, CApiMethod, testing::ValuesIn(denoiserNames()));
@@ -183,6 +219,23 @@ TEST_F(CApi, LogsEachFindingOnce) {
   HostedRun run(device(), "walr", kSize);
   std::uint32_t count = 0;
   EXPECT_EQ(walr_get_findings(run.denoiser(), &count, nullptr), WALR_ERROR_WRONG_ORDER);
+}
+
+TEST_F(CApi, LintsSpecularLight) {
+  using Names = std::vector<std::string>;
+  for (const bool good : {true, false}) {
+    HostedRun::Options options;
+    options.lint = options.specular = true;
+    HostedRun run(device(), "accumulate", kSize, options);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const FrameDescription camera = walkingCamera(i, kSize);
+      HostFrame frame = specularFrame(renderFrame(sphere(), camera, kSize));
+      if (!good) frame.lightAlpha = Image<double>(kSize, 0.0);
+      run.fill(frame);
+      run.frame(camera);
+    }
+    EXPECT_EQ(findingsOf(run.denoiser()), good ? Names{} : Names{"lighting-empty"});
+  }
 }
 
 // The first one is the most frequent mistake of engines, which mark no frame or every frame as a cut.

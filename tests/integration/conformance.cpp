@@ -23,6 +23,7 @@ constexpr Feature kFeatures[] = {
     {"HistoryConfidenceAndLengths", &ConformanceTest::hasHistoryConfidenceAndLengths},
     {"SeveralViewsOnSharedPipelines", &ConformanceTest::hasSeveralViewsOnSharedPipelines},
     {"TwoLightsOnSharedGuides", &ConformanceTest::hasTwoLightsOnSharedGuides},
+    {"DiffuseAndSpecularLight", &ConformanceTest::hasDiffuseAndSpecularLight},
     {"OrthographicCamera", &ConformanceTest::hasOrthographicCameras},
     {"CompletionByASemaphore", &ConformanceTest::hasCompletionByASemaphore},
 };
@@ -46,6 +47,9 @@ Inputs inputsOf(const WalrDenoiserInfo& info, std::uint32_t number, bool motionH
   for (const char* name : kInputs) inputs[name] = texels(name, size, number);
   if (!motionHasDepth) inputs["motion"] = motionWithoutDepth(inputs["motion"], info.motion_format);
   if (info.confidence_format != VK_FORMAT_UNDEFINED) inputs["confidence"] = texels("confidence", size, number);
+  if (hasLight(info, WALR_LIGHT_SPECULAR)) {
+    for (const char* name : {"specular_albedo", "roughness"}) inputs[name] = texels(name, size, number);
+  }
   if (info.light_count == 2) inputs["second_lighting"] = texels("lighting", size, number + 100);
   return inputs;
 }
@@ -301,6 +305,13 @@ void ConformanceTest::hasTwoLightsOnSharedGuides() {
                },
            .frames = 5,
            .resetAt = 3,
+           .outputs = {"denoised", "second_denoised"}});
+}
+
+void ConformanceTest::hasDiffuseAndSpecularLight() {
+  compare({.state = [](WalrDenoiserInfo& info,
+                       WalrConventions&) { info = ofLights(info, WALR_LIGHT_DIFFUSE, WALR_LIGHT_SPECULAR); },
+           .methods = {"accumulate"},
            .outputs = {"denoised", "second_denoised"}});
 }
 

@@ -71,6 +71,7 @@ class ConformanceTest : public PluginTest {
   void hasHistoryConfidenceAndLengths();
   void hasSeveralViewsOnSharedPipelines();
   void hasTwoLightsOnSharedGuides();
+  void hasDiffuseAndSpecularLight();
   void hasOrthographicCameras();
   void hasCompletionByASemaphore();
 

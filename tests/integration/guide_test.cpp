@@ -89,7 +89,7 @@ std::vector<Column> columns() {
         {"`" + std::string(name) + "`" + how, takes(input.format) ? input.format : VK_FORMAT_UNDEFINED, takes});
   };
   for (const HostInput& input : kHostInputs) {
-    add(input.name, "", {}, {});
+    add(input.name, "", {.specular = input.of == HostInput::Of::SpecularLight}, {});
     if (input.name == "lighting") add(input.name, " masked", {.light = {.masked = true}}, {});
     if (input.name == "normal")
       add(input.name, " octahedral", {}, {.normal = HostConventions::Normal::OctahedralSigned});
@@ -137,8 +137,8 @@ Costs costsOf(std::size_t lights) {
   constexpr fg::Extent kExtent{1920, 1080};
   constexpr double kMebibyte = 1024.0 * 1024.0;
   const auto method = makeDenoiser("walr");
-  const std::vector<Denoiser*> methods(lights, method.get());
-  const DenoiseGraph declared = declareDenoiseGraph(methods, kExtent, {}, kComputeHost);
+  const std::vector<DenoisedLight> all(lights, {method.get()});
+  const DenoiseGraph declared = declareDenoiseGraph(all, kExtent, {}, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) throw std::runtime_error(result.text());
   const auto bytes = static_cast<double>(result.plan.traffic.bytesRead + result.plan.traffic.bytesWritten);

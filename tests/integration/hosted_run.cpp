@@ -11,13 +11,15 @@
 namespace walr::test {
 namespace {
 
-constexpr std::array<const char*, 8> kImages{"lighting", "depth",     "normal",     "motion",
-                                             "albedo",   "object_id", "confidence", "denoised"};
+constexpr std::array<const char*, 9> kImages{"lighting",  "depth",      "normal",    "motion",  "albedo",
+                                             "object_id", "confidence", "roughness", "denoised"};
+constexpr std::size_t kAlbedo = 4;
 constexpr std::size_t kFirstGuide = 1;
 constexpr std::size_t kLastGuide = 4;
 constexpr std::size_t kObjectIds = 5;
 constexpr std::size_t kConfidence = 6;
-constexpr std::size_t kOutput = 7;
+constexpr std::size_t kRoughness = 7;
+constexpr std::size_t kOutput = 8;
 
 WalrImageState stateOf(const fg::ExternalState& state) {
   return {.stage = state.stage, .access = state.access, .layout = state.layout, .reserved = 0};
@@ -98,6 +100,7 @@ HostedRun::HostedRun(const fg::test::TestDevice& device, const char* method, glm
       objectIds_(options.objectIds),
       confidence_(options.confidenceFormat != VK_FORMAT_UNDEFINED),
       hasHistoryLength_(options.historyLength),
+      specular_(options.specular),
       guidesOf_(options.guidesOf),
       offset_(options.offset),
       margin_(options.margin),
@@ -122,6 +125,7 @@ HostedRun::HostedRun(const fg::test::TestDevice& device, const char* method, glm
   if (objectIds_) info.object_id_format = VK_FORMAT_R32_UINT;
   info.confidence_format = options.confidenceFormat;
   info.history_length = options.historyLength ? VK_TRUE : VK_FALSE;
+  info.light_kind = specular_ ? WALR_LIGHT_SPECULAR : WALR_LIGHT_DIFFUSE;
   info.counters = options.counters ? VK_TRUE : VK_FALSE;
   info.lint = options.lint ? VK_TRUE : VK_FALSE;
   info.timestamps = options.timestamps ? VK_TRUE : VK_FALSE;
@@ -148,7 +152,8 @@ void HostedRun::makeImages(glm::ivec2 size) {
     }
     WalrImageRequirements needs{};
     needs.struct_size = sizeof(needs);
-    require(walr_get_image_requirements(denoiser_, name, &needs));
+    const bool ofLobe = specular_ && images_.size() == kAlbedo;
+    require(walr_get_image_requirements(denoiser_, ofLobe ? "specular_albedo" : name, &needs));
     // Sparse light has a texel for a group of pixels.
     const bool sparse = name == kImages.front() && glm::all(glm::lessThan(glm::ivec2(needs.width, needs.height), size));
     if (!sparse && glm::ivec2(needs.width, needs.height) != size)
@@ -186,7 +191,8 @@ void HostedRun::forget(std::optional<FurtherOutput>& output) {
 }
 
 bool HostedRun::isGiven(std::size_t index) const {
-  return (index != kObjectIds || objectIds_) && (index != kConfidence || confidence_);
+  return (index != kObjectIds || objectIds_) && (index != kConfidence || confidence_) &&
+         (index != kRoughness || specular_);
 }
 
 bool HostedRun::isBorrowed(std::size_t index) const {
@@ -238,7 +244,8 @@ void HostedRun::fill(const std::string& image, std::vector<std::byte> texels) {
 }
 
 void HostedRun::fill(const reference::HostFrame& frame) {
-  fill("lighting", texelBytes(encodeHalves(frame.lighting)));
+  fill("lighting", texelBytes(specular_ ? encodeLighting(frame) : encodeHalves(frame.lighting)));
+  if (specular_) fill("roughness", texelBytes(encodeRoughness(frame)));
   fill("depth", texelBytes(encodeFloats(frame.depth)));
   fill("normal", texelBytes(encodeHalves(frame.normal)));
   fill("motion", texelBytes(encodeHalves(frame.motion)));
@@ -308,7 +315,8 @@ void HostedRun::record(const fg::vk::Frame& recorded, const FrameDescription& ca
   frame.depth = &images[1];
   frame.normal = &images[2];
   frame.motion = &images[3];
-  frame.albedo = &images[4];
+  (specular_ ? frame.specular_albedo : frame.albedo) = &images[kAlbedo];
+  frame.roughness = specular_ ? &images[kRoughness] : nullptr;
   frame.object_id = objectIds_ ? &images[kObjectIds] : nullptr;
   frame.confidence = confidence_ ? &images[kConfidence] : nullptr;
   frame.denoised = &images[kOutput];

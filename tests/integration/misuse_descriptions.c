@@ -199,6 +199,84 @@ static void test_lights(const WalrDevice* device) {
   EXPECT_OK(walr_destroy_denoiser(denoiser));
 }
 
+/* Specular light needs a method that takes it, images of its own and a light of every pixel. */
+static void test_specular_light(const WalrDevice* device) {
+  WalrDenoiser denoiser = NULL;
+  WalrDenoiserInfo info;
+  WalrConventions conventions = {.struct_size = sizeof(conventions)};
+#define SPECULAR(...) \
+  info.method = "accumulate", info.light_kind = WALR_LIGHT_SPECULAR, info.conventions = &conventions, __VA_ARGS__
+#define SECOND(...)                                                                                                   \
+  SPECULAR(info.light_kind = WALR_LIGHT_DIFFUSE), info.second_light_kind = WALR_LIGHT_SPECULAR, info.light_count = 2, \
+                                                  __VA_ARGS__
+  REFUSED("WalrDenoiserInfo::light_kind is 2, not one of 0..1", info.light_kind = (WalrLightKind)2);
+  REFUSED("::second_light_kind is 7", SECOND(info.second_light_kind = (WalrLightKind)7));
+  REFUSED("::second_light_kind is given, but there are fewer lights: set light_count to 2",
+          SECOND(info.light_count = 1));
+  REFUSED("no light is specular: set light_kind or second_light_kind", info.roughness_format = VK_FORMAT_R8_UNORM);
+  REFUSED("no light is specular", info.specular_albedo_format = VK_FORMAT_R16G16B16A16_SFLOAT);
+  REFUSED("method 'bmfr' takes diffuse light only; methods that take specular light: ", SPECULAR(info.method = "bmfr"));
+  REFUSED("method 'bmfr' takes diffuse light only", SECOND(info.method = "bmfr"));
+  REFUSED("'roughness' cannot be of format R32_UINT", SPECULAR(info.roughness_format = VK_FORMAT_R32_UINT));
+  REFUSED("'specular_albedo' cannot be of", SPECULAR(info.specular_albedo_format = VK_FORMAT_R16G16_SFLOAT));
+  REFUSED("4 channels", SPECULAR(info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32));
+  REFUSED("4 channels", SECOND(info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32));
+  REFUSED("make a denoiser for each light", SECOND(info.method = "none", info.light_kind = WALR_LIGHT_SPECULAR));
+#define CONVENTION(...)                             \
+  conventions = (WalrConventions) {                 \
+    .struct_size = sizeof(conventions), __VA_ARGS__ \
+  }
+  for (int second = 0; second < 2; ++second) {
+#define OF_EITHER(...)                                   \
+  CONVENTION(__VA_ARGS__), SECOND(info.light_count = 2); \
+  if (!second) SPECULAR(info.light_count = 0, info.second_light_kind = WALR_LIGHT_DIFFUSE)
+    REFUSED("needs a perspective camera", OF_EITHER(.orthographic = VK_TRUE));
+    REFUSED("leave out light groups", OF_EITHER(.light_group = {2, 2}));
+    REFUSED("counts of samples", OF_EITHER(.light_counted = VK_TRUE));
+    REFUSED("third channel of motion", OF_EITHER(.motion_depth = WALR_MOTION_DEPTH_FOUND));
+#undef OF_EITHER
+  }
+  CONVENTION(.rectangle = VK_FALSE);
+#undef CONVENTION
+  EXPECT_TRUE(denoiser == NULL);
+  const WalrPassesInfo listed = {.struct_size = sizeof(listed), .denoiser = &info};
+  WalrPasses passes = NULL;
+  info = info_of(device);
+  SPECULAR(info.method = "temporal_accumulation", info.device = NULL);
+  EXPECT(walr_create_passes(&listed, &passes), WALR_ERROR_INVALID_ARGUMENT, "no specular light");
+  /* Its history is no history of diffuse light. */
+  WalrPasses diffuse = NULL;
+  info = info_of(NULL);
+  info.method = "accumulate";
+  EXPECT_OK(walr_create_passes(&listed, &diffuse));
+  info.light_kind = WALR_LIGHT_SPECULAR;
+  EXPECT_OK(walr_create_passes(&listed, &passes));
+  EXPECT(walr_continue_passes(passes, diffuse), WALR_ERROR_INVALID_ARGUMENT, "another kind of light");
+  EXPECT_OK(walr_destroy_passes(passes));
+  EXPECT_OK(walr_destroy_passes(diffuse));
+
+  /* Each kind has an albedo. A caller with an older header has diffuse light. */
+  for (int kind = 0; kind < 3; ++kind) {
+    info = info_of(device);
+    if (kind == 2) {
+      SECOND(info.method = "none"); /* Two kinds share no guides, so that this is a method for them. */
+    } else {
+      SPECULAR(info.struct_size = kind == 0 ? offsetof(WalrDenoiserInfo, light_kind) : sizeof(info));
+    }
+    EXPECT_OK(walr_create_denoiser(&info, &denoiser));
+    const char* const names[] = {"albedo", "specular_albedo", "roughness"};
+    for (int i = 0; i < 3; ++i) {
+      WalrImageRequirements needs = {.struct_size = sizeof(needs)};
+      EXPECT_OK(walr_get_image_requirements(denoiser, names[i], &needs));
+      EXPECT_TRUE((needs.format != VK_FORMAT_UNDEFINED) == (kind == 2 || (kind == 1) == (i > 0)));
+      EXPECT_TRUE(needs.required == (kind < 2 && needs.format != VK_FORMAT_UNDEFINED));
+    }
+    EXPECT_OK(walr_destroy_denoiser(denoiser));
+  }
+#undef SECOND
+#undef SPECULAR
+}
+
 /* Object ids exist if their format is given, and are required if the method reads them. A caller with an older header
  * has none. */
 static void test_object_ids(const WalrDevice* device) {
@@ -230,5 +308,6 @@ void test_descriptions(Host* host, const WalrDevice* device) {
   test_switches(device);
   test_sparse_light(device);
   test_lights(device);
+  test_specular_light(device);
   test_object_ids(device);
 }

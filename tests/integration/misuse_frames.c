@@ -252,11 +252,47 @@ static void test_second_lights(Host* host, const WalrDevice* device) {
   destroy_images(host, &second);
 }
 
+/* Frames of specular light, and of a caller who has forgotten its images or that it is specular. */
+static void test_specular_frames(Host* host, const WalrDevice* device) {
+  WalrDenoiserInfo info = info_of(device);
+  info.method = "accumulate";
+  WalrDenoiser diffuse = NULL;
+  WalrDenoiser specular = NULL;
+  EXPECT_OK(walr_create_denoiser(&info, &diffuse));
+  info.light_kind = WALR_LIGHT_SPECULAR;
+  info.roughness_format = VK_FORMAT_R16G16B16A16_SFLOAT; /* So that one of the six images can be it. */
+  EXPECT_OK(walr_create_denoiser(&info, &specular));
+  Images images = make_images(host, diffuse);
+  const VkCommandBuffer commands = host_begin(host);
+  WalrFrame frame = frame_of(&images);
+  EXPECT(walr_record(specular, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'specular_albedo' is null");
+  frame.specular_albedo = &images.image[4];
+  EXPECT(walr_record(specular, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'roughness' is null");
+  EXPECT(walr_record(diffuse, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "'specular_albedo', but no light is");
+  frame.specular_albedo = NULL;
+  frame.roughness = &images.image[4];
+  EXPECT(walr_record(diffuse, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "light_kind of WALR_LIGHT_SPECULAR");
+  frame.specular_albedo = &images.image[4];
+  frame.struct_size = offsetof(WalrFrame, specular_albedo);
+  EXPECT(walr_record(specular, commands, &frame), WALR_ERROR_INVALID_ARGUMENT, "image 'specular_albedo' is null");
+  EXPECT_OK(walr_record(diffuse, commands, &frame));
+  host_submit_and_wait(host, commands);
+  follow(&images, diffuse);
+  frame.struct_size = sizeof(frame);
+  const VkCommandBuffer again = host_begin(host);
+  EXPECT_OK(walr_record(specular, again, &frame));
+  host_submit_and_wait(host, again);
+  EXPECT_OK(walr_destroy_denoiser(specular));
+  EXPECT_OK(walr_destroy_denoiser(diffuse));
+  destroy_images(host, &images);
+}
+
 void test_frames(Host* host, const WalrDevice* device) {
   test_images(host, device);
   test_object_id_frames(host, device);
   test_rectangle(host, device);
   test_second_lights(host, device);
+  test_specular_frames(host, device);
   test_completion(host);
   test_dropped_frames(host, device);
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -48,7 +49,9 @@ inline const WalrImage*& imageOf(WalrFrame& frame, std::string_view name) {
       {"second_light_direction", &WalrFrame::second_light_direction},
       {"light_direction", &WalrFrame::light_direction},
       {"second_expected_error", &WalrFrame::second_expected_error},
-      {"expected_error", &WalrFrame::expected_error}};
+      {"expected_error", &WalrFrame::expected_error},
+      {"specular_albedo", &WalrFrame::specular_albedo},
+      {"roughness", &WalrFrame::roughness}};
   const auto* found = std::ranges::find(kMembers, name, [](const auto& member) { return member.first; });
   if (found == std::end(kMembers)) throw std::out_of_range(std::string(name));
   return frame.*found->second;
@@ -77,11 +80,23 @@ struct NeededImage {
   [[nodiscard]] bool written() const { return (usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0; }
 };
 
-/// The images of a denoiser: the five inputs in the order of `kInputs`, the result, and those that it has besides.
+/// Whether a denoiser is made for a kind of light.
+inline bool hasLight(const WalrDenoiserInfo& info, WalrLightKind kind) {
+  return info.light_kind == kind || (info.light_count == 2 && info.second_light_kind == kind);
+}
+
+/// The images of a denoiser: the inputs in the order of `kInputs`, the result, and those that it has besides. Specular
+/// light alone has its own albedo in the place of the diffuse one.
 inline std::vector<NeededImage> neededImages(const WalrApi& api, WalrDenoiser denoiser, const WalrDenoiserInfo& info,
                                              bool view) {
   std::vector<std::string> names(std::begin(kInputs), std::end(kInputs));
   names.emplace_back("denoised");
+  if (!hasLight(info, WALR_LIGHT_DIFFUSE)) {
+    names[4] = "specular_albedo";
+  } else if (hasLight(info, WALR_LIGHT_SPECULAR)) {
+    names.emplace_back("specular_albedo");
+  }
+  if (hasLight(info, WALR_LIGHT_SPECULAR)) names.emplace_back("roughness");
   if (info.confidence_format != VK_FORMAT_UNDEFINED) names.emplace_back("confidence");
   if (info.history_length == VK_TRUE) names.emplace_back("history_length");
   if (info.light_direction == VK_TRUE) names.emplace_back("light_direction");
@@ -172,6 +187,17 @@ class PluginTest : public testing::Test {
     info.lighting_format = info.normal_format = info.motion_format = info.albedo_format = VK_FORMAT_R32G32B32A32_SFLOAT;
     return info;
   }
+  /// A description of one or two lights of these kinds.
+  [[nodiscard]] static WalrDenoiserInfo ofLights(WalrDenoiserInfo info, WalrLightKind kind,
+                                                 std::optional<WalrLightKind> second = {}) {
+    info.light_count = second ? 2 : 1;
+    info.light_kind = kind;
+    info.second_light_kind = second.value_or(WALR_LIGHT_DIFFUSE);
+    if (!hasLight(info, WALR_LIGHT_SPECULAR)) return info;
+    info.specular_albedo_format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    info.roughness_format = VK_FORMAT_R32_SFLOAT;
+    return info;
+  }
   [[nodiscard]] WalrPasses makePasses(const char* method, Size size) const { return makePasses(info(method, size)); }
   [[nodiscard]] WalrPasses makePasses(const WalrDenoiserInfo& denoiser,
                                       std::span<const WalrSettingValue> settings = {}) const {
@@ -206,7 +232,8 @@ inline WalrCamera cameraAt(float x) {
 inline constexpr float kStep = 0.05F;  ///< The camera's movement to the right per frame, in scene units.
 
 /// Texels of an input: a slanted wall behind a nearer square, seen by a camera that moves to the right, noisy light.
-/// The host trusts history in the right half only.
+/// The host trusts history in the right half only. What the wall reflects is behind it, and every seventh pixel has no
+/// sample of that.
 inline std::vector<float> texels(const std::string& name, Size size, std::uint32_t frame) {
   std::vector<float> result;
   std::uint32_t random = 12345 + frame * 977;
@@ -216,8 +243,11 @@ inline std::vector<float> texels(const std::string& name, Size size, std::uint32
       const float v = (float(y) + 0.5F) / float(size.height) * 2.0F - 1.0F;
       const bool near = std::abs(u) < 0.4F && std::abs(v) < 0.5F;
       const float depth = near ? 3.0F : 6.0F + 0.5F * v;
-      if (name == "depth" || name == "confidence") {
-        result.push_back(name == "depth" ? depth : u < 0.0F ? 0.0F : 0.75F);
+      if (name == "depth" || name == "confidence" || name == "roughness") {
+        result.push_back(name == "depth"       ? depth
+                         : name == "roughness" ? 0.1F + 0.3F * (v + 1.0F)
+                         : u < 0.0F            ? 0.0F
+                                               : 0.75F);
         continue;
       }
       float texel[4] = {0, 0, 0, 0};
@@ -225,7 +255,9 @@ inline std::vector<float> texels(const std::string& name, Size size, std::uint32
       // A point at view depth d moves by focal * step / d times half the image's width.
       if (name == "motion") texel[0] = 1.5F * kStep / depth * 0.5F * float(size.width);
       if (name == "albedo") texel[0] = texel[1] = texel[2] = v > 0.9F ? 0.0F : 0.5F;
+      if (name == "specular_albedo") texel[0] = texel[1] = texel[2] = v < -0.9F ? 0.0F : 0.04F;
       if (name == "lighting") {
+        texel[3] = (x + y) % 7 == 0 ? 0.0F : 2.0F + u;
         for (int c = 0; c < 3; ++c) {
           random = random * 1664525U + 1013904223U;
           texel[c] = (near ? 0.5F : 1.0F + u) * -std::log(float((random >> 8) + 1) * 0x1p-24F);
@@ -255,6 +287,8 @@ class Opaque {
   Opaque& operator=(const Opaque&) = delete;
 
   [[nodiscard]] WalrDenoiser denoiser() const { return denoiser_; }
+  [[nodiscard]] const WalrDenoiserInfo& info() const { return info_; }
+  [[nodiscard]] const std::vector<NeededImage>& needed() const { return needed_; }
   HostImage& image(std::size_t index) { return images_[index]; }
   HostImage& image(const std::string& name) {
     return images_.at(std::size_t(std::ranges::find(needed_, name, &NeededImage::name) - needed_.begin()));

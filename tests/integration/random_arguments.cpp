@@ -80,12 +80,27 @@ void RandomInfo::chooseOutputs(Dice& dice, Expectation& expected) {
   if (info_.value.denoised_format == VK_FORMAT_R8G8B8A8_UNORM) expected.fails();
 }
 
+/// Some of either kind; only methods that take specular light accept it.
+void RandomInfo::chooseKinds(Dice& dice, Expectation& expected) {
+  WalrDenoiserInfo& info = info_.value;
+  info.light_kind = choose(dice, expected, WALR_LIGHT_SPECULAR);
+  if (info.light_count == 2 || dice.oneIn(8)) info.second_light_kind = choose(dice, expected, WALR_LIGHT_SPECULAR);
+  if (info.light_count != 2 && info.second_light_kind != WALR_LIGHT_DIFFUSE) expected.fails();
+  const bool specular = info.light_kind == WALR_LIGHT_SPECULAR || info.second_light_kind == WALR_LIGHT_SPECULAR;
+  if (specular) expected.mayFail();
+  if (!dice.oneIn(4)) return;
+  info.roughness_format = dice.of({VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_UINT});
+  if (!specular || info.roughness_format == VK_FORMAT_R32_UINT) expected.fails();
+}
+
 /// After the method: stages and methods without guides have one light.
 void RandomInfo::chooseLights(Dice& dice, Expectation& expected) {
   info_.value.light_count = dice.of({1U, 2U, 2U, 2U, 3U});
   const bool two = info_.value.light_count == 2;
-  const bool shares = type_ == nullptr || (type_->method == VK_TRUE && std::strcmp(type_->name, "none") != 0);
-  if (info_.value.light_count > 2 || (two && !shares)) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  if (dice.oneIn(2)) chooseKinds(dice, expected);
+  const bool stage = type_ != nullptr && type_->method == VK_FALSE;
+  const bool shares = type_ == nullptr || std::strcmp(type_->name, "none") != 0 || ofTwoKinds();
+  if (info_.value.light_count > 2 || (two && (stage || !shares))) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
   if (two) expected.mayFail();  // Presets may need other guides.
   if (!dice.oneIn(3)) return;
   const bool right = type_ != nullptr && type_->preset_count > 0 && !dice.oneIn(4);

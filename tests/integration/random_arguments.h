@@ -19,14 +19,11 @@ inline constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Words of which the text of an error about a WalrDenoiserInfo holds one.
-inline const std::vector<std::string_view> kInfoNames = {"WalrDenoiserInfo", "WalrDevice",
-                                                         "WalrMemory",       "WalrConventions",
-                                                         "WalrDenoiser",     "method",
-                                                         "preset",           "setting",
-                                                         "image size",       "input",
-                                                         "orthographic",     "queue famil",
-                                                         "created without",  "the result's address",
-                                                         "regression",       "svgf."};
+inline const std::vector<std::string_view> kInfoNames = {
+    "WalrDenoiserInfo", "WalrDevice",  "WalrMemory",      "WalrConventions",      "WalrDenoiser",
+    "method",           "preset",      "setting",         "image size",           "input",
+    "orthographic",     "queue famil", "created without", "the result's address", "regression",
+    "specular light",   "svgf."};
 
 /// All that a WalrDenoiserInfo points to.
 class RandomInfo {
@@ -58,6 +55,8 @@ class RandomInfo {
   void chooseConventions(Dice& dice, Expectation& expected);
   void chooseOutputs(Dice& dice, Expectation& expected);
   void chooseLights(Dice& dice, Expectation& expected);
+  void chooseKinds(Dice& dice, Expectation& expected);
+  [[nodiscard]] bool ofTwoKinds() const { return info_.value.light_kind != info_.value.second_light_kind; }
   void chooseDevice(Dice& dice, Expectation& expected, const RandomHost& host);
 
   const WalrPassType* type_ = nullptr;

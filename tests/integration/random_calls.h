@@ -38,6 +38,7 @@ struct ModelledPasses {
   std::string method;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  std::vector<WalrLightKind> lights;
   bool rectangle = false;
   bool orthographic = false;
   bool lint = false;

@@ -172,14 +172,14 @@ void RandomCalls::requirements() {
   }
   const char* const port =
       dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "history_length",
-                "light_direction", "expected_error", "second_lighting", "second_denoised", "denoised", "view", "magic",
-                "", static_cast<const char*>(nullptr)});
+                "light_direction", "expected_error", "second_lighting", "second_denoised", "roughness", "denoised",
+                "view", "magic", "", static_cast<const char*>(nullptr)});
   if (port == nullptr || *port == '\0' || std::strcmp(port, "magic") == 0) expected.fails();
   if (picked.model != nullptr && picked.model->changed) expected.mayFail();
   if (dice_.oneIn(2)) {
     check_("walr_get_image_requirements", expected,
            {"WalrDenoiser", "WalrImageRequirements", "the image's name", "image \"", "setting", "view", "regression",
-            "svgf."},
+            "specular light", "svgf."},
            [&] { return walr_get_image_requirements(picked.handle, port, &needs.value); });
     return;
   }
@@ -259,7 +259,8 @@ void RandomCalls::chooseView() {
   const bool withoutCount = dice_.oneIn(8);
   if (withoutCount) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
   if (picked.model != nullptr && picked.model->changed) expected.mayFail();
-  check_("walr_get_views", expected, {"WalrDenoiser", "the count's address", "setting", "regression", "svgf."},
+  check_("walr_get_views", expected,
+         {"WalrDenoiser", "the count's address", "setting", "regression", "specular light", "svgf."},
          [&] { return walr_get_views(picked.handle, withoutCount ? nullptr : &count, views.data()); });
   if (withoutCount) return;
 
@@ -278,7 +279,7 @@ void RandomCalls::chooseView() {
     ofChoice.fails(WALR_ERROR_INVALID_ARGUMENT);
   }
   const WalrResult result =
-      check_("walr_set_view", ofChoice, {"WalrDenoiser", "view", "setting", "regression", "svgf."},
+      check_("walr_set_view", ofChoice, {"WalrDenoiser", "view", "setting", "regression", "specular light", "svgf."},
              [&] { return walr_set_view(picked.handle, none ? nullptr : name.c_str()); });
   if (result == WALR_SUCCESS && picked.model != nullptr) picked.model->changed = true;
 }
@@ -304,7 +305,8 @@ void RandomCalls::prepare() {
   if (picked.model != nullptr && host_.recorder == nullptr) return;
   if (picked.model != nullptr && picked.model->changed) expected.mayFail();
   if (picked.model != nullptr && picked.model->allocates) expected.mayRunOutOfMemory();
-  check_("walr_prepare", expected, {"WalrDenoiser", "WalrMemory", "setting", "view", "regression", "svgf."},
+  check_("walr_prepare", expected,
+         {"WalrDenoiser", "WalrMemory", "setting", "view", "regression", "specular light", "svgf."},
          [&] { return walr_prepare(picked.handle); });
 }
 

@@ -21,6 +21,8 @@ constexpr std::array kPorts = {Port{"lighting", &WalrFrame::lighting},
                                Port{"confidence", &WalrFrame::confidence},
                                Port{"second_lighting", &WalrFrame::second_lighting},
                                Port{"second_confidence", &WalrFrame::second_confidence},
+                               Port{"specular_albedo", &WalrFrame::specular_albedo},
+                               Port{"roughness", &WalrFrame::roughness},
                                Port{"denoised", &WalrFrame::denoised},
                                Port{"second_denoised", &WalrFrame::second_denoised},
                                Port{"view", &WalrFrame::view},
@@ -30,7 +32,7 @@ constexpr std::array kPorts = {Port{"lighting", &WalrFrame::lighting},
                                Port{"second_light_direction", &WalrFrame::second_light_direction},
                                Port{"expected_error", &WalrFrame::expected_error},
                                Port{"second_expected_error", &WalrFrame::second_expected_error}};
-constexpr std::size_t kLastHolding = 10;  ///< Index of the last image that may be larger than the rectangle.
+constexpr std::size_t kLastHolding = 12;  ///< Index of the last image that may be larger than the rectangle.
 
 /// Makes one of the image's members wrong.
 void spoil(Dice& dice, WalrImage& image) {
@@ -186,11 +188,12 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
   const VkCommandBuffer commands = host_begin(host_);
   const bool withoutCommands = dice.oneIn(16);
   if (withoutCommands) expected.fails();
-  const WalrResult result = check(
-      "walr_record", expected,
-      {"WalrFrame", "WalrImage", "WalrCamera", "WalrMemory", "camera", "matrix", "image '", "origin", "sky_depth",
-       "exposure", "offset", "command buffer", "finished", "created without", "setting", "view", "regression", "svgf."},
-      [&] { return walr_record(denoiser.handle, withoutCommands ? VK_NULL_HANDLE : commands, &frame); });
+  const WalrResult result =
+      check("walr_record", expected,
+            {"WalrFrame", "WalrImage", "WalrCamera", "WalrMemory", "camera", "matrix", "image '", "origin", "sky_depth",
+             "exposure", "offset", "command buffer", "finished", "created without", "setting", "view", "regression",
+             "specular light", "svgf."},
+            [&] { return walr_record(denoiser.handle, withoutCommands ? VK_NULL_HANDLE : commands, &frame); });
   recorded_ += result == WALR_SUCCESS;
   submit(commands, result == WALR_SUCCESS ? finishedValue : 0);
   for (const HostImage& image : images_) walr_forget_image(denoiser.handle, image.image, 0);

@@ -71,28 +71,17 @@ void RandomCalls::createPasses() {
   WalrPasses made = wildHandle<WalrPasses>(dice_);
   const bool withoutResult = dice_.oneIn(40);
   if (withoutResult) expected.fails();
-  const WalrResult result = check_("walr_create_passes", expected,
-                                   {"WalrPassesInfo",
-                                    "WalrDenoiserInfo",
-                                    "WalrDevice",
-                                    "WalrMemory",
-                                    "WalrConventions",
-                                    "WalrSettingValue",
-                                    "WalrPortFormat",
-                                    "setting",
-                                    "preset",
-                                    "method",
-                                    "pass type",
-                                    "port",
-                                    "image size",
-                                    "input",
-                                    "stage",
-                                    "the result's address",
-                                    "orthographic",
-                                    "queue famil",
-                                    "created without",
-                                    "regression",
-                                    "svgf."},
+  const WalrResult result = check_("walr_create_passes", expected, {"WalrPassesInfo",  "WalrDenoiserInfo",
+                                                                    "WalrDevice",      "WalrMemory",
+                                                                    "WalrConventions", "WalrSettingValue",
+                                                                    "WalrPortFormat",  "setting",
+                                                                    "preset",          "method",
+                                                                    "pass type",       "port",
+                                                                    "image size",      "input",
+                                                                    "stage",           "the result's address",
+                                                                    "orthographic",    "queue famil",
+                                                                    "created without", "regression",
+                                                                    "specular light",  "svgf."},
                                    [&] { return walr_create_passes(&info.value, withoutResult ? nullptr : &made); });
   if (result != WALR_SUCCESS) {
     if (!withoutResult && made != nullptr) check_.fault("a failed walr_create_passes left a handle");
@@ -102,12 +91,14 @@ void RandomCalls::createPasses() {
                        .method = denoiser.get()->method,
                        .width = denoiser.get()->width,
                        .height = denoiser.get()->height,
+                       .lights = {denoiser.get()->light_kind},
                        .rectangle = denoiser.rectangle(),
                        .orthographic = denoiser.orthographic(),
                        .lint = denoiser.get()->lint != 0 && host_.vulkan.device != nullptr,
                        .counters = denoiser.get()->counters != 0 && host_.vulkan.device != nullptr,
                        .recordable = host_.vulkan.device != nullptr,
                        .allocates = denoiser.allocates()};
+  if (denoiser.get()->light_count == 2) model.lights.push_back(denoiser.get()->second_light_kind);
   if (dice_.oneIn(2)) walr_get_pass_list(made, &model.list);
   passes_.live.push_back(std::move(model));
 }
@@ -171,7 +162,9 @@ void RandomCalls::continuePasses() {
     const ModelledPasses& a = *picked.model;
     const ModelledPasses& b = *last.model;
     const bool sameSize = a.width == b.width && a.height == b.height;
-    if (a.method != b.method || (!sameSize && !(a.rectangle && b.rectangle)))
+    const std::size_t common = std::min(a.lights.size(), b.lights.size());
+    const bool sameLights = std::equal(a.lights.begin(), a.lights.begin() + std::ptrdiff_t(common), b.lights.begin());
+    if (a.method != b.method || !sameLights || (!sameSize && !(a.rectangle && b.rectangle)))
       expected.fails(WALR_ERROR_INVALID_ARGUMENT);
     if (!b.hadFrame) expected.fails(WALR_ERROR_WRONG_ORDER);
   }

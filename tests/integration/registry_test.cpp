@@ -91,7 +91,9 @@ TEST(Registry, PortsHaveTheUsageThatThePlanHas) {
     const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
     ASSERT_TRUE(result.ok()) << result.text();
     for (const Port& port : typeOf(method).ports) {
-      if (port.name == "object_id" || port.name == "confidence") continue;  // This host does not have them.
+      // This host does not have them.
+      const HostInput* input = hostInputNamed(port.name);
+      if (input != nullptr && (input->optional || input->of == HostInput::Of::SpecularLight)) continue;
       const auto& resources = declared.graph.desc().resources;
       const auto found = std::ranges::find(resources, port.name, &fg::ResourceDecl::name);
       ASSERT_NE(found, resources.end()) << port.name;

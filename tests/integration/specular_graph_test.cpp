@@ -1,38 +1,115 @@
-// Graphs of specular light. No device is needed.
+// Graphs of specular light, alone and beside diffuse light. No device is needed.
 
-#include <array>
+#include <algorithm>
 #include <memory>
-#include <span>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "framegraph/compile/compile.h"
 #include "integration/denoise_graph.h"
+#include "integration/registry.h"
+#include "passes/guides/shared_guides.h"
 #include "tests/error_text.h"
 
 namespace walr::specular_graph_test {
 namespace {
 
-DenoiseGraph declare(const HostConventions& host = {}, std::size_t lights = 1) {
+constexpr fg::Extent kExtent{64, 36};
+
+/// @param kinds of each light: whether it is specular
+DenoiseGraph declare(const std::vector<bool>& kinds, const HostConventions& host = {},
+                     std::span<const VkFormat> formats = {}) {
   const auto method = makeDenoiser("accumulate");
-  const std::array<Denoiser*, 2> methods{method.get(), method.get()};
-  return declareDenoiseGraph(std::span(methods).first(lights), {64, 36}, {.specular = true}, kComputeHost, {}, host);
+  std::vector<DenoisedLight> lights;
+  for (const bool specular : kinds) lights.push_back({method.get(), specular});
+  return declareDenoiseGraph(lights, kExtent, {}, kComputeHost, formats, host);
+}
+
+std::set<std::string> passesOf(const DenoiseGraph& declared) {
+  std::set<std::string> names;
+  for (const fg::PassDecl& pass : declared.graph.desc().passes) names.insert(pass.name);
+  return names;
 }
 
 TEST(SpecularGraph, RefusesWhatItCannotDo) {
-  const auto expectRefused = [](const HostConventions& host, std::size_t lights, std::string_view why) {
-    fg::test::expectError<std::invalid_argument>([&] { (void)declare(host, lights); }, {why});
-  };
-  expectRefused({.orthographic = true}, 1, "perspective camera");
-  expectRefused({}, 2, "for it alone");
+  std::vector<VkFormat> noAlpha;
+  for (const HostInput& input : kHostInputs) noAlpha.push_back(input.optional ? VK_FORMAT_UNDEFINED : input.format);
+  noAlpha.front() = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+  for (const std::vector<bool>& kinds : {std::vector{true}, {false, true}, {true, false}}) {
+    const auto expectRefused = [&](const HostConventions& host, std::span<const VkFormat> formats,
+                                   std::string_view why) {
+      fg::test::expectError<std::invalid_argument>([&] { (void)declare(kinds, host, formats); }, {why});
+    };
+    expectRefused({.orthographic = true}, {}, "perspective camera");
+    expectRefused({}, noAlpha, "'lighting' cannot be of format B10G11R11_UFLOAT_PACK32");
+  }
 }
 
 // A rectangle of the host's textures is copied out of all of them.
-TEST(SpecularGraph, MovesRoughnessWithTheOtherInputs) {
-  const auto passes = [](const HostConventions& host) { return declare(host).graph.desc().passes.size(); };
+TEST(SpecularGraph, MovesItsTexturesWithTheOtherInputs) {
+  const auto passes = [](const std::vector<bool>& kinds, const HostConventions& host) {
+    return declare(kinds, host).graph.desc().passes.size();
+  };
   // Depth, normal, motion, lighting, albedo, roughness and the result.
-  EXPECT_EQ(passes({.rectangle = true}), passes({}) + 7);
+  EXPECT_EQ(passes({true}, {.rectangle = true}), passes({true}, {}) + 7);
+  // Also the other albedo, the other light and its result.
+  EXPECT_EQ(passes({false, true}, {.rectangle = true}), passes({false, true}, {}) + 10);
+}
+
+TEST(SpecularGraph, SharesGuidesWithItsOwnKindOnly) {
+  const std::string second = "second light: prepare guides";
+  for (const bool first : {false, true}) {
+    EXPECT_TRUE(passesOf(declare({first, !first})).contains(second));
+    EXPECT_FALSE(passesOf(declare({first, first})).contains(second));
+  }
+}
+
+TEST(SpecularGraph, ReadsTheAlbedoOfItsLobe) {
+  const DenoiseGraph alone = declare({true});
+  EXPECT_FALSE(alone.inputs.albedo.valid());
+  const DenoiseGraph both = declare({false, true});
+  const fg::CompileResult result = fg::compile(both.graph.desc(), fg::TableMemoryModel());
+  ASSERT_TRUE(result.ok()) << result.text();
+  for (const fg::Texture each : {both.inputs.albedo, both.inputs.specularAlbedo, both.inputs.roughness})
+    EXPECT_TRUE(result.plan.resources[each.resource].used);
+  EXPECT_FALSE(declare({false}).inputs.roughness.valid());
+}
+
+// A host that owns the graph gives each kind guides of its own.
+TEST(SpecularGraph, TellsHostsThatShareGuidesWithAnotherKind) {
+  fg::Graph graph;
+  DenoiserInputs inputs = importInputs(graph, kExtent, {.specular = true}, kComputeHost.inputs);
+  inputs.albedo = inputs.specularAlbedo;
+  const auto method = makeDenoiser("accumulate");
+  SharedGuides guides;
+  Inspection inspection;
+  const auto add = [&](std::string_view prefix) {
+    const std::string name = std::string(prefix) + "output";
+    (void)method->add({graph, inspection, {.guides = &guides, .prefix = prefix}}, inputs,
+                      graph.texture(name, {kOutputFormat, kExtent}));
+  };
+  add("");
+  inputs.conventions.specular = false;
+  fg::test::expectError<std::invalid_argument>([&] { add("diffuse "); }, {"a SharedGuides of its own"});
+}
+
+// The registry has the two textures as ports, and asks for them where they are read.
+TEST(SpecularGraph, HasPortsInTheRegistry) {
+  for (const bool specular : {false, true}) {
+    const auto node = makePass("accumulate");
+    node->setConventions({.specular = specular});
+    const std::vector<Port> ports = node->ports();
+    for (const char* const name : {"albedo", "specular_albedo", "roughness"}) {
+      const auto port = std::ranges::find(ports, std::string_view(name), &Port::name);
+      ASSERT_NE(port, ports.end()) << name;
+      EXPECT_EQ(port->optional, specular == (port->name == "albedo")) << name;
+    }
+  }
 }
 
 }  // namespace

@@ -1,10 +1,14 @@
 // Two lights of a view in one denoiser, which share their guides: the results are those of two denoisers, to the bit.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "plugin_host.h"
@@ -21,7 +25,7 @@ class TwoLights : public PluginTest {
  protected:
   /// Inputs of a frame by name; the lights differ in lighting and confidence. Normals vary, so that light has a slope.
   static std::vector<float> inputOf(const std::string& name, std::uint32_t number, bool second) {
-    std::vector<float> values = texels(name, kSize, number + (second ? 100 : 0));
+    std::vector<float> values = texels(name, kSize, number + (second && name == "lighting" ? 100 : 0));
     for (std::size_t i = 0; name == "normal" && i < values.size(); i += 4) {
       values[i] = 0.06F * float(i / 4 % 11) - 0.3F;
       values[i + 2] = std::sqrt(1.0F - values[i] * values[i]);
@@ -35,10 +39,8 @@ class TwoLights : public PluginTest {
   /// A description with whatever a light can have.
   [[nodiscard]] WalrDenoiserInfo described(const char* method) const {
     WalrDenoiserInfo whole = info(method, kSize);
-    const bool isWalr = std::string(method) == "walr";
     whole.confidence_format = VK_FORMAT_R32_SFLOAT;
     whole.history_length = VK_TRUE;
-    whole.light_direction = whole.expected_error = isWalr ? VK_TRUE : VK_FALSE;
     return whole;
   }
 
@@ -49,8 +51,7 @@ class TwoLights : public PluginTest {
     Opaque second(host, api(), other);
     for (std::uint32_t number = 0; number < kFrames; ++number) {
       SCOPED_TRACE(std::string(both.method) + ", frame " + std::to_string(number));
-      for (const char* name : kInputs) fill(together, first, second, name, number);
-      fill(together, first, second, "confidence", number);
+      fill(together, first, second, number);
       const WalrCamera camera = cameraAt(float(number) * kStep);
       const std::uint32_t flags = number == kReset ? WALR_FRAME_RESET_HISTORY : 0;
       for (Opaque* each : {&together, &first, &second}) each->frame(camera, flags);
@@ -67,23 +68,67 @@ class TwoLights : public PluginTest {
     }
   }
 
-  void fill(Opaque& together, Opaque& first, Opaque& second, const std::string& name, std::uint32_t number) {
-    const bool ofLight = name == "lighting" || name == "confidence";
-    host_upload(&host, &together.image(name), inputOf(name, number, false).data());
-    host_upload(&host, &first.image(name), inputOf(name, number, false).data());
-    host_upload(&host, &second.image(name), inputOf(name, number, ofLight).data());
-    if (ofLight) host_upload(&host, &together.image("second_" + name), inputOf(name, number, true).data());
+  void fill(Opaque& together, Opaque& first, Opaque& second, std::uint32_t number) {
+    for (Opaque* each : {&together, &first, &second}) {
+      for (const NeededImage& image : each->needed()) {
+        if (image.written()) continue;
+        const bool prefixed = image.name.starts_with("second_");
+        const std::string name = image.name.substr(prefixed ? 7 : 0);
+        host_upload(&host, &each->image(image.name), inputOf(name, number, prefixed || each == &second).data());
+      }
+    }
   }
 };
 
 TEST_F(TwoLights, AreThoseOfTwoDenoisers) {
   for (const WalrPassType* type : registered.types) {
     if (type->method == VK_FALSE || std::string(type->name) == "none") continue;
-    const WalrDenoiserInfo one = described(type->name);
+    WalrDenoiserInfo one = described(type->name);
+    one.light_direction = one.expected_error = std::string(type->name) == "walr" ? VK_TRUE : VK_FALSE;
     WalrDenoiserInfo both = one;
     both.light_count = 2;
     compare(both, one, one);
   }
+}
+
+// Methods that do not take specular light say so.
+TEST_F(TwoLights, OfTwoKindsAreThoseOfTwoDenoisers) {
+  constexpr WalrLightKind kDiffuse = WALR_LIGHT_DIFFUSE, kSpecular = WALR_LIGHT_SPECULAR;
+  // The first pair with every method, the others with one.
+  const std::vector<std::pair<WalrLightKind, WalrLightKind>> pairs{
+      {kDiffuse, kSpecular}, {kSpecular, kDiffuse}, {kSpecular, kSpecular}};
+  int tried = 0;
+  for (const WalrPassType* type : registered.types) {
+    if (type->method == VK_FALSE || std::string(type->name) == "none") continue;
+    const WalrDenoiserInfo specular = ofLights(described(type->name), kSpecular);
+    WalrDenoiser denoiser = nullptr;
+    if (api().create_denoiser(&specular, &denoiser) != WALR_SUCCESS) {
+      EXPECT_NE(std::string(api().last_error()).find("takes diffuse light only"), std::string::npos)
+          << api().last_error();
+      continue;
+    }
+    EXPECT_EQ(api().destroy_denoiser(denoiser), WALR_SUCCESS);
+    const std::size_t count = std::string(type->name) == "accumulate" ? pairs.size() : 1;
+    for (const auto& [first, second] : std::span(pairs).first(count)) {
+      SCOPED_TRACE(std::to_string(first) + ", " + std::to_string(second));
+      const WalrDenoiserInfo one = described(type->name);
+      compare(ofLights(one, first, second), ofLights(one, first), ofLights(one, second));
+    }
+    ++tried;
+  }
+  EXPECT_GE(tried, 1);
+}
+
+TEST_F(TwoLights, OfTwoKindsHaveConventionsOfAHost) {
+  WalrConventions conventions{};
+  conventions.struct_size = sizeof(conventions);
+  conventions.pre_exposed = VK_TRUE;
+  conventions.rectangle = VK_TRUE;
+  WalrDenoiserInfo one = described("accumulate");
+  one.conventions = &conventions;
+  one.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  compare(ofLights(one, WALR_LIGHT_DIFFUSE, WALR_LIGHT_SPECULAR), ofLights(one, WALR_LIGHT_DIFFUSE),
+          ofLights(one, WALR_LIGHT_SPECULAR));
 }
 
 TEST_F(TwoLights, HavePresetsAndConventionsOfAHost) {
@@ -136,7 +181,7 @@ TEST_F(TwoLights, HaveViewsOfTheirOwn) {
   Opaque first(host, api(), one, "coarse-fit");
   Opaque second(host, api(), one, "coarse-fit");
   for (std::uint32_t number = 0; number < 2; ++number) {
-    for (const char* name : kInputs) fill(together, first, second, name, number);
+    fill(together, first, second, number);
     for (Opaque* each : {&together, &first, &second}) each->frame(cameraAt(float(number) * kStep), 0);
   }
   EXPECT_EQ(download(host, together.image("view")), download(host, second.image("view")));
@@ -145,6 +190,31 @@ TEST_F(TwoLights, HaveViewsOfTheirOwn) {
   require(api().create_denoiser(&one, &alone));
   EXPECT_EQ(api().set_view(alone, "second.coarse-fit"), WALR_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(api().destroy_denoiser(alone), WALR_SUCCESS);
+}
+
+// Diffuse light has no such view.
+TEST_F(TwoLights, OfTwoKindsHaveViewsOfTheirOwn) {
+  const WalrDenoiserInfo one = info("accumulate", kSize);
+  const WalrDenoiserInfo both = ofLights(one, WALR_LIGHT_DIFFUSE, WALR_LIGHT_SPECULAR);
+  const WalrDenoiserInfo specular = ofLights(one, WALR_LIGHT_SPECULAR);
+  Opaque together(host, api(), both, "second.reflection-motion");
+  Opaque first(host, api(), one);
+  Opaque second(host, api(), specular, "reflection-motion");
+  for (std::uint32_t number = 0; number < 2; ++number) {
+    fill(together, first, second, number);
+    for (Opaque* each : {&together, &first, &second}) each->frame(cameraAt(float(number) * kStep), 0);
+  }
+  const auto view = download(host, together.image("view"));
+  EXPECT_EQ(view, download(host, second.image("view")));
+  EXPECT_TRUE(std::ranges::any_of(view, [](std::uint16_t bits) { return bits != 0; }));
+  EXPECT_EQ(api().set_view(together.denoiser(), "reflection-motion"), WALR_ERROR_INVALID_ARGUMENT);
+  for (const auto& [denoiser, expected] : {std::pair{&second, true}, {&first, false}}) {
+    std::array<WalrView, 64> views{};
+    std::uint32_t count = views.size();
+    require(api().get_views(denoiser->denoiser(), &count, views.data()));
+    const auto isMotion = [](const WalrView& each) { return std::string_view(each.name) == "reflection-motion"; };
+    EXPECT_EQ(std::any_of(views.begin(), views.begin() + count, isMotion), expected);
+  }
 }
 
 TEST_F(TwoLights, HaveSettingsOfTheirOwn) {

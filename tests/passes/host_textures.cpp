@@ -64,6 +64,7 @@ DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConven
   inputs.normal = importHalves(graph, "normal", size);
   inputs.motion = importHalves(graph, "motion", size);
   inputs.albedo = importHalves(graph, "albedo", size);
+  inputs.specularAlbedo = inputs.albedo;
   if (conventions.specular) inputs.roughness = import(graph, "roughness", VK_FORMAT_R8_UNORM, size);
   inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
   inputs.conventions = conventions;
@@ -80,11 +81,7 @@ void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const referen
   run.fill(inputs.motion, encodeHalves(frame.motion));
   run.fill(inputs.albedo, encodeHalves(frame.albedo));
   run.fill(inputs.depth, encodeFloats(frame.depth));
-  if (inputs.roughness.valid()) {
-    std::vector<std::uint8_t> texels;
-    for (const double r : frame.roughness.pixels()) texels.push_back(static_cast<std::uint8_t>(std::lround(255.0 * r)));
-    run.fill(inputs.roughness, texels);
-  }
+  if (inputs.roughness.valid()) run.fill(inputs.roughness, encodeRoughness(frame));
   if (inputs.objectId.valid()) run.fill(inputs.objectId, frame.objectId.pixels());
   run.executor().upload(inputs.frame, frame.constants);
 }

@@ -127,6 +127,12 @@ std::vector<std::uint16_t> encodeHalves(const reference::Image<glm::dvec3>& imag
   return texels;
 }
 
+std::vector<std::uint8_t> encodeRoughness(const reference::HostFrame& frame) {
+  std::vector<std::uint8_t> texels;
+  for (const double r : frame.roughness.pixels()) texels.push_back(static_cast<std::uint8_t>(std::lround(255.0 * r)));
+  return texels;
+}
+
 std::vector<std::uint16_t> encodeLighting(const reference::HostFrame& frame) {
   const LightPattern& light = frame.conventions.light;
   if (light.everyPixel() && !frame.conventions.specular) return encodeHalves(frame.lighting);

@@ -12,6 +12,8 @@ namespace walr::test {
 std::vector<std::uint16_t> encodeHalves(const reference::Image<glm::dvec3>& image);
 /// The lighting of a frame, which may be sparse: texels that belong to no pixel are NaN.
 std::vector<std::uint16_t> encodeLighting(const reference::HostFrame& frame);
+/// R8_UNORM.
+std::vector<std::uint8_t> encodeRoughness(const reference::HostFrame& frame);
 reference::Image<glm::dvec4> decodeHalves(const std::vector<std::uint16_t>& texels, glm::ivec2 size);
 
 /// Packed light (packed_light.glsl). Alpha is the history length of accumulated light; for filtered light 1, or -1

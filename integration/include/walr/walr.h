@@ -262,6 +262,17 @@ typedef struct WalrConventions {
   VkBool32 light_counted;
 } WalrConventions;
 
+/* What a light is that a denoiser takes. */
+typedef enum WalrLightKind {
+  WALR_LIGHT_DIFFUSE = 0, /* Light of the diffuse lobe, divided by WalrFrame::albedo. */
+  /* Light of the specular lobe (reflections), divided by WalrFrame::specular_albedo. Its alpha is the distance from the
+   * surface to what it reflects, scene units: 1e10 or infinity where the ray met nothing, 0 where there is no sample.
+   * Methods that take diffuse light only are refused by name, and so are orthographic cameras, light groups and counted
+   * light, and WALR_MOTION_DEPTH_FOUND unless scene.object-motion is off. */
+  WALR_LIGHT_SPECULAR = 1,
+  WALR_LIGHT_KIND_MAX = 0x7fffffff
+} WalrLightKind;
+
 typedef enum WalrLogLevel {
   WALR_LOG_INFO = 0,
   WALR_LOG_WARNING = 1,
@@ -310,8 +321,9 @@ typedef struct WalrDenoiserInfo {
    * use either. Both may be destroyed in any order. */
   WalrDenoiser shared_with;
   VkBool32 light_direction; /* Write WalrFrame::light_direction. It costs a small pass; method walr only. */
-  /* Lights of one view (indirect and direct): 1 or 2; 0 means 1. Two lights share depth, normals, motion and albedo,
-   * which are prepared once, and the search for their history. Each has its own histories and settings. The results are
+  /* Lights of one view (indirect and direct, or diffuse and specular): 1 or 2; 0 means 1. Two lights of one kind share
+   * depth, normals, motion and albedo, which are prepared once, and the search for their history. Two kinds share the
+   * images only. Each has its own histories and settings. The results are
    * those of two denoisers, to the bit. The images of the second light are WalrFrame::second_lighting and those after
    * it; their formats are those of the first. Counters and lint are those of the first light, and so is the view unless
    * its name begins with "second.". Settings that decide which guides are made must be the same for both; the error
@@ -320,6 +332,11 @@ typedef struct WalrDenoiserInfo {
   const char* second_preset; /* With two lights: the preset of the second. Null means `preset`. */
   VkBool32 expected_error;   /* Write WalrFrame::expected_error. It costs a small pass; method walr only. */
   uint32_t reserved;
+  WalrLightKind light_kind;        /* Of WalrFrame::lighting. */
+  WalrLightKind second_light_kind; /* Of WalrFrame::second_lighting. */
+  /* Of WalrFrame::specular_albedo and WalrFrame::roughness, for specular light only; like `albedo_format`. */
+  VkFormat specular_albedo_format;
+  VkFormat roughness_format;
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -368,7 +385,7 @@ typedef struct WalrImageRequirements {
 /* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "denoised",
  * "view" (see walr_set_view), "history_length", "light_direction" or "expected_error"; with two lights also
  * "second_lighting", "second_confidence", "second_denoised", "second_history_length", "second_light_direction" or
- * "second_expected_error".
+ * "second_expected_error"; with specular light also "specular_albedo" and "roughness".
  * Needs no image and no walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
@@ -479,6 +496,10 @@ typedef struct WalrFrame {
    * x 8. 0 where there is nothing to denoise. See "Expected error" in the integration guide. */
   const WalrImage* expected_error;
   const WalrImage* second_expected_error;
+  /* With WALR_LIGHT_SPECULAR: directional albedo of the specular lobe, by which the light was divided (see
+   * walr/specular_albedo.h), and linear roughness as in glTF, 0 to 1. `albedo` is then read by diffuse light only. */
+  const WalrImage* specular_albedo;
+  const WalrImage* roughness;
 } WalrFrame;
 
 /*

@@ -20,9 +20,8 @@ extern "C" {
 #endif
 
 typedef enum WalrResourceKind {
-  /* An image of the host: "lighting", ..., "denoised", and with two lights "second_lighting", "second_denoised". Of a
-   * single stage also its other inputs, named like the ports.
-   */
+  /* An image of the host: "lighting", ..., "denoised", and with two lights "second_lighting", "second_denoised", with
+   * specular light "specular_albedo", "roughness". Of a single stage also its other inputs, named like the ports. */
   WALR_RESOURCE_HOST = 0,
   WALR_RESOURCE_TRANSIENT = 1,        /* Lives within the frame. */
   WALR_RESOURCE_HISTORY_PREVIOUS = 2, /* What the last frame wrote into `partner`. Null in the first frame. */

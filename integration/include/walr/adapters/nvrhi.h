@@ -34,6 +34,8 @@ struct NvrhiTextures {
   nvrhi::ITexture* secondHistoryLength = nullptr;
   nvrhi::ITexture* secondLightDirection = nullptr;
   nvrhi::ITexture* secondExpectedError = nullptr;
+  nvrhi::ITexture* specularAlbedo = nullptr;
+  nvrhi::ITexture* roughness = nullptr;
 };
 
 /// Records a denoiser into NVRHI's command lists. NVRHI still tracks the states of the textures.
@@ -71,7 +73,9 @@ class NvrhiDenoiser {
                               {textures.secondDenoised, &frame.second_denoised, true},
                               {textures.secondHistoryLength, &frame.second_history_length, true},
                               {textures.secondLightDirection, &frame.second_light_direction, true},
-                              {textures.secondExpectedError, &frame.second_expected_error, true}};
+                              {textures.secondExpectedError, &frame.second_expected_error, true},
+                              {textures.specularAlbedo, &frame.specular_albedo, false},
+                              {textures.roughness, &frame.roughness, false}};
     WalrImage images[std::size(members)] = {};
     for (std::size_t i = 0; i < std::size(members); ++i) {
       const auto& [texture, image, output] = members[i];
