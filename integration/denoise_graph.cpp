@@ -45,10 +45,9 @@ struct LightKinds {
 };
 
 /// The number of channels of an input that are read.
-std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, LightKinds kinds,
-                           const HostConventions& host) {
+std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
   const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
-  if (input.texture == &DenoiserInputs::lighting && (kinds.specular || conventions.light.hasAlpha())) return 4;
+  if (input.texture == &DenoiserInputs::lighting && conventions.light.hasAlpha()) return 4;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;
@@ -66,8 +65,8 @@ DenoiserInputs importAll(fg::Graph& graph, fg::Extent extent, const InputConvent
     const VkFormat usual = input.optional ? VK_FORMAT_UNDEFINED : input.format;
     const VkFormat format = formats.empty() ? usual : formats[i];
     if (input.optional && format == VK_FORMAT_UNDEFINED) continue;
-    requireInputFormat(input, format, channelsRead(input, conventions, kinds, host));
     const bool isLight = input.texture == &DenoiserInputs::lighting;
+    requireInputFormat(input, format, channelsRead(input, conventions, host), isLight && kinds.specular);
     const fg::Extent size = isLight ? conventions.light.lightingExtent(extent) : extent;
     inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = size}, state);
   }
@@ -206,7 +205,7 @@ DenoiseGraph declareDenoiseGraph(std::span<const DenoisedLight> lights, fg::Exte
                                 std::to_string(kMostLights));
   }
   const auto specular = static_cast<std::size_t>(std::ranges::count(lights, true, &DenoisedLight::specular));
-  const LightKinds kinds{.diffuse = specular<lights.size(), .specular = specular> 0};
+  const LightKinds kinds{.diffuse = (specular < lights.size()), .specular = (specular > 0)};
   InputConventions stated = conventions;
   stated.specular = kinds.specular;
   checkOrthographic(stated, host, wanted.lint);

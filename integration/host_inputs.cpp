@@ -61,16 +61,20 @@ const HostInput* hostInputNamed(std::string_view name) {
   return found == kHostInputs.end() ? nullptr : &*found;
 }
 
-void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels) {
+void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels, bool distances) {
   const fg::FormatInfo& info = fg::formatInfo(format);
   const fg::FormatInfo& usual = fg::formatInfo(input.format);
   const bool integers = integerChannels(usual) > 0;
-  if ((integers ? integerChannels(info) : sampledChannels(info)) >= channels) return;
+  if (distances) channels = 4;
+  const bool holds = !distances || info.name.find("_SFLOAT") != std::string_view::npos;
+  if (holds && (integers ? integerChannels(info) : sampledChannels(info)) >= channels) return;
   throw std::invalid_argument("input '" + std::string(input.name) + "' cannot be of format " + std::string(info.name) +
-                              " (" + std::to_string(format) + "): it takes a format that is sampled as " +
-                              (integers ? "unsigned integers" : "floats") + " with " + std::to_string(channels) +
-                              (channels == 1 ? " channel" : " channels") + " or more, such as " +
-                              std::string(usual.name));
+                              " (" + std::to_string(format) + "): it takes a format that is " +
+                              (integers    ? "sampled as unsigned integers"
+                               : distances ? "stored as SFLOAT, because alpha is a distance,"
+                                           : "sampled as floats") +
+                              " with " + std::to_string(channels) + (channels == 1 ? " channel" : " channels") +
+                              " or more, such as " + std::string(usual.name));
 }
 
 }  // namespace walr

@@ -41,8 +41,9 @@ inline constexpr VkFormat kOutputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// Check that a host's texture can be used as an input.
 /// @param channels how many are read, if not `input.channels`
+/// @param distances whether alpha is the distance of specular light, which takes four channels of floats
 /// @throws std::invalid_argument naming the input, its format and what is accepted
-void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels);
+void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels, bool distances = false);
 inline void requireInputFormat(const HostInput& input, VkFormat format) {
   requireInputFormat(input, format, input.channels);
 }

@@ -142,7 +142,8 @@ std::vector<std::unique_ptr<Denoiser>> makeMethods(std::span<const WalrLightKind
   }
   std::vector<std::unique_ptr<Denoiser>> methods;
   for (std::size_t i = 0; i < lights.size(); ++i) methods.push_back(makeDenoiser(name));
-  const bool shares = lights.size() > 1 && lights.front() == lights.back();
+  const bool shares =
+      std::ranges::any_of(lights, [&](WalrLightKind kind) { return std::ranges::count(lights, kind) > 1; });
   if (shares && !methods.front()->sharesGuides()) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT,
                 "method '" + name +

@@ -65,7 +65,8 @@ void HostedPasses::continueFrom(const HostedPasses& last) {
                                                  last.description_.methodName() +
                                                  "': create both with the same method and conventions");
   }
-  const std::vector<WalrLightKind>&kinds = description_.lightKinds(), &before = last.description_.lightKinds();
+  const std::vector<WalrLightKind>& kinds = description_.lightKinds();
+  const std::vector<WalrLightKind>& before = last.description_.lightKinds();
   if (!std::equal(kinds.begin(), kinds.begin() + std::ptrdiff_t(std::min(kinds.size(), before.size())),
                   before.begin())) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT,

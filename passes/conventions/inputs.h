@@ -24,7 +24,7 @@ struct InputConventions {
   /// Whether motion.xy is between the jittered images, from pixel centre to pixel centre. If not, it is the motion that
   /// cameras without jitter would show.
   bool motionJittered = true;
-  /// The light is specular: see `DenoiserInputs::roughness`.
+  /// The light is specular: see `DenoiserInputs::specularAlbedo`.
   bool specular = false;
   LightPattern light = {};
 
@@ -36,8 +36,8 @@ struct InputConventions {
   }
 };
 
-/// The textures that every denoiser takes; `objectId` and `confidence` may be left out. All have the extent of the
-/// image, but see `LightPattern` for that of the lighting.
+/// The textures that denoisers take, `albedo` for diffuse light only. `objectId` and `confidence` may be left out. All
+/// have the extent of the image, but see `LightPattern` for that of the lighting.
 struct DenoiserInputs {
   fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per texel. Alpha: see
                          ///< `LightPattern::masked`.

@@ -74,7 +74,7 @@ void LintJudge::judgeValues() {
            "a division by the w of what was behind the camera in the last frame",
            "write any motion that leads out of the picture"},
       Rule{kLintAlbedoNotFinite, kLintSurfaces, true, "albedo-not-finite", "albedo is NaN or infinite on ", kDivision,
-           "write 0 where there is no diffuse lobe"},
+           "write 0 on surfaces without the light's lobe"},
       Rule{kLintLightingNegative, kLintPixels, false, "lighting-negative", "lighting is negative on ",
            "a reconstruction filter with negative lobes, or a subtraction of direct from full light",
            "hand over the light as it was sampled"},

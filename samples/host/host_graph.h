@@ -56,7 +56,7 @@ struct HostGraph {
   UploadedPicture objectId;
   UploadedPicture direct;
   UploadedPicture emission;
-  /// Light of the specular lobe, divided by `specularAlbedo`; alpha: see `DenoiserInputs::roughness`.
+  /// Light of the specular lobe, divided by `specularAlbedo`; alpha: see `DenoiserInputs::specularAlbedo`.
   std::optional<UploadedPicture> specular;
   std::optional<UploadedPicture> specularAlbedo;  ///< It and `roughness` are absent without `specular`.
   std::optional<UploadedPicture> roughness;

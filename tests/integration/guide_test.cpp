@@ -90,7 +90,10 @@ std::vector<Column> columns() {
   };
   for (const HostInput& input : kHostInputs) {
     add(input.name, "", {.specular = input.of == HostInput::Of::SpecularLight}, {});
-    if (input.name == "lighting") add(input.name, " masked", {.light = {.masked = true}}, {});
+    if (input.name == "lighting") {
+      add(input.name, " masked", {.light = {.masked = true}}, {});
+      add(input.name, " specular", {.specular = true}, {});
+    }
     if (input.name == "normal")
       add(input.name, " octahedral", {}, {.normal = HostConventions::Normal::OctahedralSigned});
     if (input.name == "motion") {

@@ -221,6 +221,8 @@ static void test_specular_light(const WalrDevice* device) {
   REFUSED("'specular_albedo' cannot be of", SPECULAR(info.specular_albedo_format = VK_FORMAT_R16G16_SFLOAT));
   REFUSED("4 channels", SPECULAR(info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32));
   REFUSED("4 channels", SECOND(info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32));
+  REFUSED("stored as SFLOAT", SPECULAR(info.lighting_format = VK_FORMAT_R16G16B16A16_UNORM));
+  REFUSED("stored as SFLOAT", SECOND(info.lighting_format = VK_FORMAT_R8G8B8A8_SRGB));
   REFUSED("make a denoiser for each light", SECOND(info.method = "none", info.light_kind = WALR_LIGHT_SPECULAR));
 #define CONVENTION(...)                             \
   conventions = (WalrConventions) {                 \

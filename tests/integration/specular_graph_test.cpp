@@ -98,7 +98,7 @@ TEST(SpecularGraph, TellsHostsThatShareGuidesWithAnotherKind) {
   fg::test::expectError<std::invalid_argument>([&] { add("diffuse "); }, {"a SharedGuides of its own"});
 }
 
-// The registry has the two textures as ports, and asks for them where they are read.
+// The registry has the two textures as ports, asks for them where they are read, and wants light that holds distances.
 TEST(SpecularGraph, HasPortsInTheRegistry) {
   for (const bool specular : {false, true}) {
     const auto node = makePass("accumulate");
@@ -109,6 +109,11 @@ TEST(SpecularGraph, HasPortsInTheRegistry) {
       ASSERT_NE(port, ports.end()) << name;
       EXPECT_EQ(port->optional, specular == (port->name == "albedo")) << name;
     }
+    fg::Graph graph;
+    const fg::TextureDesc clamped{.format = VK_FORMAT_R16G16B16A16_UNORM, .extent = kExtent};
+    node->connect(std::string(kLightingName), graph.import("light", clamped, kComputeHost.inputs));
+    fg::test::expectError<std::invalid_argument>(
+        [&] { (void)node->add(graph); }, {specular ? "stored as SFLOAT" : "nothing is connected to port 'depth'"});
   }
 }
 

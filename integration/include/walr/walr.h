@@ -267,8 +267,8 @@ typedef enum WalrLightKind {
   WALR_LIGHT_DIFFUSE = 0, /* Light of the diffuse lobe, divided by WalrFrame::albedo. */
   /* Light of the specular lobe (reflections), divided by WalrFrame::specular_albedo. Its alpha is the distance from the
    * surface to what it reflects, scene units: 1e10 or infinity where the ray met nothing, 0 where there is no sample.
-   * Methods that take diffuse light only are refused by name, and so are orthographic cameras, light groups and counted
-   * light, and WALR_MOTION_DEPTH_FOUND unless scene.object-motion is off. */
+   * Methods that take diffuse light only are refused by name, and so are orthographic cameras, light groups, counted
+   * light and WALR_MOTION_DEPTH_FOUND. */
   WALR_LIGHT_SPECULAR = 1,
   WALR_LIGHT_KIND_MAX = 0x7fffffff
 } WalrLightKind;
@@ -295,7 +295,7 @@ typedef struct WalrDenoiserInfo {
   const WalrConventions* conventions; /* Null means all zero. */
   /* Formats of the host's images; VK_FORMAT_UNDEFINED means the usual one, see WalrPort::format. Any other must be
    * sampled as floats and have at least as many channels as are read. */
-  VkFormat lighting_format;
+  VkFormat lighting_format; /* If a light is specular, SFLOAT with four channels: its alpha is a distance. */
   VkFormat depth_format;
   VkFormat normal_format;
   VkFormat motion_format;
@@ -322,12 +322,12 @@ typedef struct WalrDenoiserInfo {
   WalrDenoiser shared_with;
   VkBool32 light_direction; /* Write WalrFrame::light_direction. It costs a small pass; method walr only. */
   /* Lights of one view (indirect and direct, or diffuse and specular): 1 or 2; 0 means 1. Two lights of one kind share
-   * depth, normals, motion and albedo, which are prepared once, and the search for their history. Two kinds share the
-   * images only. Each has its own histories and settings. The results are
-   * those of two denoisers, to the bit. The images of the second light are WalrFrame::second_lighting and those after
-   * it; their formats are those of the first. Counters and lint are those of the first light, and so is the view unless
-   * its name begins with "second.". Settings that decide which guides are made must be the same for both; the error
-   * text lists them. Methods without guides and single stages have one light. */
+   * depth, normals, motion and albedo, which are prepared once, and the search for their history: methods without
+   * guides are refused, and settings that decide which guides are made must be the same for both; the error text lists
+   * them. Two kinds share the images only. Each light has its own histories and settings. The results are those of two
+   * denoisers, to the bit. The images of the second light are WalrFrame::second_lighting and those after it; their
+   * formats are those of the first. Counters and lint are those of the first light, and so is the view unless its name
+   * begins with "second.". Single stages have one light. */
   uint32_t light_count;
   const char* second_preset; /* With two lights: the preset of the second. Null means `preset`. */
   VkBool32 expected_error;   /* Write WalrFrame::expected_error. It costs a small pass; method walr only. */
