@@ -23,6 +23,7 @@ SvgfSettings tunedSvgf() {
 SvgfSettings paperSvgf() {
   SvgfSettings settings;
   settings.accumulation.maxHistory = 5.0F;
+  settings.accumulation.maxSpecularHistory = 5.0F;
   settings.filter.iterations = 5;
   settings.filter.sigmaNormal = 128.0F;
   settings.filter.lobeShare = 0.0F;
@@ -58,6 +59,7 @@ fg::Texture addSvgf(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
       addSvgfAtrous(graph, inputs.frame, guided, guides, accumulated.lobes, colour.current, settings.filter);
   if (!settings.antialiasing.enabled || inputs.scene.hostAntialiasing) return addPassThrough(graph, filtered, output);
   if (!specular) return addTemporalAntialiasing(graph, inputs, guides, filtered, output, settings.antialiasing);
+  requireGivenTaps(settings.antialiasing);
   const fg::Texture depth = coversPixelArea(settings.antialiasing, inputs.scene) ? guides.depth : fg::Texture{};
   return addTemporalAntialiasingWithTaps(graph, inputs.frame, reflection.taps, depth, filtered, output,
                                          settings.antialiasing);

@@ -96,7 +96,8 @@ void Inspection::offerLightDirection(const DeclareView& declare) {
 void Inspection::requireLightDirection() const {
   if (!lightDirection_.valid() || lightDirectionWritten_) return;
   throw std::invalid_argument(
-      "there is no light direction: the method has no slopes of the light over the normal; use the method walr");
+      "there is no light direction: the method has no slopes of the light over the normal; use the method walr on "
+      "diffuse light");
 }
 
 void Inspection::offerExpectedError(const DeclareView& declare) {
@@ -108,8 +109,8 @@ void Inspection::offerExpectedError(const DeclareView& declare) {
 void Inspection::requireExpectedError() const {
   if (!expectedError_.valid() || expectedErrorWritten_) return;
   throw std::invalid_argument(
-      "there is no expected error: use the method walr without spatial-only, with packed accumulation.storage, and "
-      "with light whose groups have one row");
+      "there is no expected error: use the method walr on diffuse light without spatial-only, with packed "
+      "accumulation.storage, and with light whose groups have one row");
 }
 
 void Inspection::requireViews() const {

@@ -18,8 +18,8 @@ struct SvgfAccumulationSettings {
   HistoryThresholds thresholds{.planeTolerance = kStrictThresholds.planeTolerance};
 
   void visit(SettingVisitor& v) {
-    v.visit({"accumulation.max-history", "Frames after which the mean colour turns exponential", "frames", 1.0, 255.0,
-             "measured; the paper's alpha of 0.2 is 5"},
+    v.visit({"accumulation.max-history", "Diffuse light: frames after which the mean colour turns exponential",
+             "frames", 1.0, 255.0, "measured; the paper's alpha of 0.2 is 5"},
             maxHistory);
     v.visit({"accumulation.max-moment-history", "Frames after which the luminance moments turn exponential", "frames",
              1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},
@@ -34,10 +34,10 @@ struct SvgfAccumulationSettings {
 /// The result of SVGF's temporal accumulation.
 struct SvgfAccumulated {
   fg::Texture colour;  ///< RGBA16F: mean radiance; sky and pixels without a diffuse lobe hold the pass-through.
-  /// RGBA16F: mean of the luminance, its standard deviation, history length; 0 where none. Specular light: view depth
-  /// over the mean distance of what is reflected.
+  /// RGBA16F: mean of the luminance, its standard deviation, history length (0: none), and of specular light the view
+  /// depth over the mean distance of what is reflected.
   fg::Texture moments;
-  fg::Texture lobes = {};  ///< Of specular light only. R32G32_UINT: see shaders/conventions/lobe.glsl.
+  fg::Texture lobes = {};  ///< Of specular light only. R32G32_UINT: see shaders/conventions/packed_lobe.glsl.
 };
 
 /// Average colour and luminance moments over time along the motion.

@@ -1,6 +1,7 @@
 #include "passes/temporal/temporal_antialiasing.h"
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,13 @@ fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inpu
 
 bool coversPixelArea(const TemporalAntialiasingSettings& settings, const SceneDescription& scene) {
   return settings.pixelArea && scene.jitter && !settings.accumulates;
+}
+
+void requireGivenTaps(const TemporalAntialiasingSettings& settings) {
+  if (!settings.objectIds && !settings.dilateMotion) return;
+  throw std::invalid_argument(std::string("setting antialiasing.") +
+                              (settings.objectIds ? "object-ids" : "dilate-motion") +
+                              " is for diffuse light: the history of specular light is where it was reflected");
 }
 
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,

@@ -95,7 +95,12 @@ bool coversPixelArea(const TemporalAntialiasingSettings& settings, const SceneDe
 bool sharesReprojection(const TemporalAntialiasingSettings& antialiasing,
                         const TemporalAccumulationSettings& accumulation);
 
-/// The same with the history taps that accumulation kept; `sharesReprojection` must hold.
+/// Check settings of anti-aliasing that reads the taps of specular light (`ReflectionMotion`).
+/// @throws std::invalid_argument naming a setting that would search for other taps
+void requireGivenTaps(const TemporalAntialiasingSettings& settings);
+
+/// The same with the history taps that accumulation kept; `sharesReprojection` must hold, but for specular light, whose
+/// taps are given (`ReflectionMotion`).
 /// @param frame upload of `FrameConstants`
 /// @param taps  R32_UINT: `AccumulationWithTaps::taps` for `settings.storage`
 /// @param depth `Guides::depth` if `coversPixelArea` holds, else not valid

@@ -49,6 +49,7 @@ TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStag
   const bool reprojects = plan.accumulates && (!inputs.scene.still() || stages.keepTaps);
   if (!reprojects) return plan;
   const bool givenMotion = inputs.conventions.specular;
+  if (givenMotion && plan.antialiases) requireGivenTaps(stages.antialiasing);
   plan.sharesTaps = plan.antialiases && (givenMotion || sharesReprojection(plan.antialiasing, plan.accumulation));
   plan.keepsTaps = plan.sharesTaps || stages.keepTaps;
   plan.guides = guidesOf(plan);

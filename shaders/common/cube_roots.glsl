@@ -1,4 +1,4 @@
-// Numbers from 10^-21 to 10^14, with their signs, as halves: their cube roots. They err by 2^-10 at most.
+// Numbers from 10^-21 to 10^14, with their signs, as halves: their cube roots. Those from 10^-12 on err by 1.5 x 2^-10 at most, smaller ones by more.
 #ifndef WALR_CUBE_ROOTS_GLSL
 #define WALR_CUBE_ROOTS_GLSL
 #include "common/half.glsl"

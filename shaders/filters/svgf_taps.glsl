@@ -1,7 +1,7 @@
 // What an a-trous iteration of SVGF reads of the pixels around.
 // Needs: `depth`, `shadingNormal` (utexture2D), `colour` (texture2D), kRadius, kSpacing;
 // GL_EXT_control_flow_attributes.
-// SPECULAR: reads `lobes` (lobe.glsl) instead of `shadingNormal`.
+// SPECULAR: reads `lobes` (packed_lobe.glsl) instead of `shadingNormal`.
 // WINDOW: reads every tap from the textures. Else a work group reads each pixel once and keeps it in shared memory.
 #ifndef WALR_SVGF_TAPS_GLSL
 #define WALR_SVGF_TAPS_GLSL

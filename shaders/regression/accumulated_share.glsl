@@ -7,7 +7,7 @@
 // most.
 // In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
 // pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
-// SPECULAR: narrow lobes stand for edges, and each pixel has a least share (lobe.glsl).
+// SPECULAR: narrow lobes stand for edges, and each pixel has a least share (regression/lobe.glsl).
 // Most workgroups of light of one sample have no share. They do nothing in most frames (partOfWorkgroup).
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
 // stored_fit.glsl.

@@ -12,7 +12,7 @@
 // and anti-aliasing outputs the pass-through.
 // RESIDUAL (setting blocks.residual): adds shares of the residual, the accumulated light less the prediction
 // (accumulated_share.glsl), and stores statistics for the shares and the history length of later frames (innovation.glsl).
-// SPECULAR: of specular light, whose features are those of a lobe (lobe.glsl).
+// SPECULAR: of specular light, whose features are those of a lobe (regression/lobe.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
 // read.
 // DIRECTION: writes the slopes of the prediction over the normal instead of the result, for the output `light_direction`

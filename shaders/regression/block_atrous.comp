@@ -3,7 +3,7 @@
 // edge-stopping weight on the way to it, times the cosine between the normals, times the growth weight
 // (block_growth.glsl).
 // LAST: the last iteration. It solves the regression and writes fits instead of moments.
-// SPECULAR: of specular light; the weight of a tap is also that of its mean lobe (lobe.glsl).
+// SPECULAR: of specular light; the weight of a tap is also that of its mean lobe (regression/lobe.glsl).
 // VIEW: does the same work and writes one of its intermediate values of each block to all pixels of the block.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
@@ -92,7 +92,8 @@ struct TraceSummary {
 };
 
 // Growth weight of a tap: 1 where both blocks show the same light within the standard errors of their means. The
-// variance is that of the pixels of both blocks together: that of a few samples may be small by chance.
+// variance is that of the pixels of both blocks together: that of a few samples may be small by chance. Pixels are means
+// of N samples, so that the error comes out smaller than it is by the root of N: six mean 2.1 with 8 frames of history.
 float sameLight(BlockMoments a, BlockMoments b) {
   const float samples = a.samples + b.samples;
   const float shareA = a.samples / samples;

@@ -5,8 +5,7 @@
 
 // Growth weight same_k: 1 while two means of luminance differ by at most `errors` standard errors, 0 from twice as many
 // on. `variance`: that of the difference. `mean`: the sum of both means, each of which a half holds to a relative
-// 2^-11. The variance that callers divide by samples is that of pixels, which are means of N samples: the error comes out
-// smaller than it is by the root of N, so that six standard errors mean 2.1 with 8 frames of history.
+// 2^-11.
 float sameLight(float difference, float variance, float mean, float errors) {
   const float rounding = exp2(-11.0) * mean;
   const float error = max(sqrt(variance + rounding * rounding), 1e-30);

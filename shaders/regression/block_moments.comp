@@ -7,7 +7,7 @@
 // texels.
 // kLightGrid: textures hold the pixels of the light grid (light_sample.glsl), and only these count.
 // PACKED: `accumulated` is packed light (packed_light.glsl).
-// SPECULAR: of specular light (lobe.glsl). `features` are those of reflector.glsl. Pixels of a block also count by how
+// SPECULAR: of specular light (regression/lobe.glsl). `features` are those of reflector.glsl. Pixels of a block also count by how
 // far their lobes are that of the representative pixel.
 // kAntilag: takes history out of accumulated light where the light has changed in this frame (current_light.glsl).
 #version 460

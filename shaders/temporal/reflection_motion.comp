@@ -56,7 +56,6 @@ const float kNewtonUpTo = 0.3;            // Roughness.
 const int kMostNewtonSteps = 3;
 const float kLongestNewtonStep = 8.0;     // Pixels.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
-const float kLeastDistance = 1e-3;        // Of what is reflected, over view depth.
 const float kMostNormalChange = 0.5;      // Between pixels that tell the curvature.
 const int kCurvatureStep = 2;             // Pixels.
 const float kNoHistory = 4.0;             // A miss larger than that of any two directions.
@@ -302,7 +301,7 @@ ReflectedDistance meanDistance(ivec2 p, float z, ReflectionMotion m) {
   const float distance = texelFetch(lighting, p, 0).a;
   if (!(distance > 0.0)) return mean;
   mean.frames = min(mean.frames + 1.0, constants.maxHistory);
-  const float inverse = distance < kLargestHalf ? z / max(distance, kLeastDistance * z) : 0.0;
+  const float inverse = nearnessOf(distance, z);
   mean.inverse += (inverse - mean.inverse) / mean.frames;
   return mean;
 }

@@ -3,7 +3,7 @@
 // iterations. Moments are kept centred, as mean and standard deviation: the difference of raw moments would drown in
 // the rounding of halves.
 // SPECULAR: specular light. It follows the taps of reflection_motion.comp, has no sample where its distance is 0, and
-// lobes (lobe.glsl) are written for the a-trous iterations. A view, which writes none, learns that from kTapsGiven.
+// lobes (packed_lobe.glsl) are written for the a-trous iterations. A view, which writes none, learns that from kTapsGiven.
 // VIEW: does the same work and writes one of its intermediate values instead of the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -125,8 +125,6 @@ void addSample(inout TemporalMoments m, vec3 radiance, float alpha, float moment
 // Whether the pixel has a sample of this frame, which may not be finite. Alpha of specular light is its distance.
 bool hasSample(vec4 noisy) { return !kTapsGiven || noisy.a > 0.0; }
 
-const float kLeastDistance = 1e-3;  // Of what is reflected, over view depth.
-
 // The history with this frame's sample. A sample that is not finite does not count: the moments stay as they were.
 TemporalMoments momentsWith(ivec2 p, float z, TemporalMoments m, vec4 noisy) {
   m.samples = confidentLength(p, m.samples, constants.maxHistory);
@@ -135,7 +133,7 @@ TemporalMoments momentsWith(ivec2 p, float z, TemporalMoments m, vec4 noisy) {
   const float momentSamples = min(m.samples, constants.maxMomentHistory);
   addSample(m, clampedRadiance(noisy.rgb), 1.0 / m.samples, 1.0 / momentSamples);
 #ifdef SPECULAR
-  m.nearness = mix(m.nearness, 1.0 / max(noisy.a / z, kLeastDistance), 1.0 / m.samples);
+  m.nearness = mix(m.nearness, nearnessOf(noisy.a, z), 1.0 / m.samples);
 #endif
   return m;
 }

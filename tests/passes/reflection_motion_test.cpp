@@ -423,6 +423,12 @@ TEST(SpecularLight, IsRefusedByNameWhereAMethodCannotTakeIt) {
   const auto svgf = makeDenoiser("svgf");
   svgf->usePreset("paper");
   EXPECT_NO_THROW((void)svgf->views({.specular = true})) << "weighs by normals";
+  for (const char* const name : {"walr", "svgf"}) {
+    const auto antialiased = makeDenoiser(name);
+    antialiased->set("antialiasing.object-ids", "on");
+    fg::test::expectError<std::invalid_argument>([&] { (void)antialiased->views({.specular = true}); },
+                                                 {"antialiasing.object-ids", "diffuse light"});
+  }
   svgf->set("spatial-only", "on");
   fg::test::expectError<std::invalid_argument>([&] { (void)svgf->views({.specular = true}); }, {"spatial-only"});
 }

@@ -178,7 +178,8 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
     out.mean += (l - out.mean) * momentAlpha;
     out.square += (l * l - out.square) * momentAlpha;
     if (!reflection) return;
-    const double nearness = std::min(guides[p].depth / frame.lightAlpha[p], 1000.0);
+    constexpr double kFar = 65504.0;
+    const double nearness = frame.lightAlpha[p] < kFar ? std::min(guides[p].depth / frame.lightAlpha[p], 1000.0) : 0.0;
     out.nearness += (nearness - out.nearness) / out.samples;
   });
   return result;
