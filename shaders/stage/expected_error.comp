@@ -1,5 +1,5 @@
 // Writes the error to expect of the result after the tone map x / (1 + x), for each tile of 8 x 8 pixels
-// (passes/stage/README.md).
+// (passes/EXPECTED_ERROR.md).
 // VIEW: writes what the error is computed from, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require

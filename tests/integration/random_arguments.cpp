@@ -54,7 +54,7 @@ RandomInfo::RandomInfo(Dice& dice, Expectation& expected, const std::vector<cons
   chooseImages(dice, expected);
   chooseConventions(dice, expected);
   chooseOutputs(dice, expected);
-  if (dice.oneIn(8)) chooseLights(dice, expected);
+  if (dice.oneIn(16)) chooseLights(dice, expected);
   chooseDevice(dice, expected, host);
 }
 
@@ -97,7 +97,7 @@ void RandomInfo::chooseKinds(Dice& dice, Expectation& expected) {
 void RandomInfo::chooseLights(Dice& dice, Expectation& expected) {
   info_.value.light_count = dice.of({1U, 2U, 2U, 2U, 3U});
   const bool two = info_.value.light_count == 2;
-  if (dice.oneIn(2)) chooseKinds(dice, expected);
+  if (dice.oneIn(4)) chooseKinds(dice, expected);
   const bool stage = type_ != nullptr && type_->method == VK_FALSE;
   const bool shares = type_ == nullptr || std::strcmp(type_->name, "none") != 0 || ofTwoKinds();
   if (info_.value.light_count > 2 || (two && (stage || !shares))) expected.fails(WALR_ERROR_INVALID_ARGUMENT);

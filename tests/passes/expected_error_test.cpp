@@ -1,4 +1,4 @@
-// The expected error of a result, against the formula of passes/stage/README.md, in double precision.
+// The expected error of a result, against the formula of passes/EXPECTED_ERROR.md, in double precision.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
