@@ -53,6 +53,8 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
 
   // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
   const float bias = 0.5F * settings.innovationBias / history.maxHistory;
+  // All tiles of specular light are measured in every frame.
+  const float quietMemory = inputs.specular ? 1.0F : kQuietMemory;
   fg::PassBuilder pass = graph->compute("residual statistics", shaders::residualStatistics);
   pass.uniform("frameConstants", inputs.frame)
       .sample("fitDepth", inputs.blockDepth)
@@ -66,7 +68,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .specialize("kBlockSize", inputs.blockSize)
       .constants(ResidualStatisticsConstants{.tileOffset = static_cast<std::int32_t>(inputs.tileOffset),
                                              .kept = 1.0F - 1.0F / settings.frames,
-                                             .keptQuiet = 1.0F - 1.0F / (kQuietMemory * settings.frames),
+                                             .keptQuiet = 1.0F - 1.0F / (quietMemory * settings.frames),
                                              .maxHistory = history.maxHistory,
                                              .innovationGain = settings.innovationGain,
                                              .innovationBias = bias,

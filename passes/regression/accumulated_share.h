@@ -74,6 +74,7 @@ struct AccumulatedShareInputs {
   std::uint32_t tileOffset;               ///< Pixels of the first one that lie before the image, per axis.
   fg::Extent tiles;                       ///< Number of these workgroups.
   std::optional<SteeredHistory> history;  ///< Without it, no pass reads the measured length.
+  bool specular;                          ///< Light.
 };
 
 /// Let the reconstruction `apply` (a variant RESIDUAL of block_apply.comp) mix its result with the accumulated light,

@@ -375,11 +375,10 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
   if (!specular)
     graph.offerLightDirection([&](const std::string& name) { return reconstruct(name, shaders::blockApplyDirection); });
 
-  const bool residual = addsResidual(light, settings);
-  const fg::Shader& shader =
-      residual ? (writesPacked ? shaders::blockApplyResidualPacked({.specular = specular})
-                               : shaders::blockApplyResidual({.specular = specular}))
-               : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply({.specular = specular}));
+  const bool residual = specular || addsResidual(light, settings);
+  const fg::Shader& shader = residual ? (writesPacked ? shaders::blockApplyResidualPacked({.specular = specular})
+                                                      : shaders::blockApplyResidual({.specular = specular}))
+                                      : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
   fg::PassBuilder pass = reconstruct("block apply", shader);
   if (!writesPacked) {
     // Accumulated light that is not packed is never sparse: it has a texel for every pixel, which is 0 where a pixel
@@ -399,7 +398,8 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
                          .tileSize = tileSizeOf(grid, shader),
                          .tileOffset = pixelsBeforeImage(grid),
                          .tiles = tilesOf(grid, shader),
-                         .history = light.history},
+                         .history = light.history,
+                         .specular = specular},
                         settings.share);
   }
   return pass.store("outFiltered", target);

@@ -94,7 +94,7 @@ struct BlockLight {
   fg::Texture accumulated;    ///< RGBA16F, or packed: radiance; values that are not finite do not count.
   LightingAlpha alpha;        ///< What the alpha channel of `accumulated` holds; pixels without samples do not count.
   fg::Texture lighting = {};  ///< The host's; needed if `accumulated` is packed, with `antilag`, and for
-                              ///< `BlockRegressionSettings::share`, which has no effect without it.
+                              ///< `BlockRegressionSettings::share`, which has no effect on diffuse light without it.
   LightPattern pattern = {};  ///< Of `lighting`.
   std::optional<LightGrid> lightGrid = std::nullopt;     ///< If `accumulated` lies on it.
   std::optional<SteeredHistory> history = std::nullopt;  ///< Of `accumulated`, if `AccumulatedShareSettings` steers it.
@@ -120,7 +120,7 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
 
 /// Reconstruct every pixel from the fits around it and its own features.
 /// @param frame    upload of `FrameConstants`
-/// @param light    as given to `addBlockRegression`
+/// @param light    as given to `addBlockRegression`; specular light with `lighting`, as it always has a share
 /// @param target   texture to write to: RGBA16F, or packed, which holds no pass-through (packed_light.glsl)
 /// @param settings of the regression
 /// @returns the target's new version: filtered radiance; in RGBA16F the pass-through at sky and pixels without a

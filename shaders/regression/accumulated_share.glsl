@@ -63,10 +63,11 @@ const int kSteers = 2;    // Measures innovations, too.
 int partOfWorkgroup() {
 #ifdef SPECULAR
   return kSteers;  // Narrow lobes always have a share.
-#endif
+#else
   if (!isAmongQuiet()) return kSteers;
   if (!isMeasuredThoughQuiet(gl_WorkGroupID.xy, frame.frameIndex)) return kNothing;
   return haveQuietInnovations(frame.frameIndex) ? kSteers : kMeasures;
+#endif
 }
 
 vec4 accumulatedAt(ivec2 p) {
@@ -109,9 +110,9 @@ float accumulatedShare(vec2 statistics, float samples, float trust, float gain) 
   return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
 }
 #ifdef SPECULAR
-// The same with what the lobe of the pixel asks for.
+// The same with what the lobe of the pixel asks for. Its gain is in the statistics.
 float shareOfLobe(vec2 statistics, float samples, float trust, float gain) {
-  return max(accumulatedShare(statistics, samples, trust, gain * residualGain(ownRoughness)), leastShare);
+  return max(accumulatedShare(statistics, samples, trust, gain), leastShare);
 }
 #define SHARE shareOfLobe
 #else
@@ -357,6 +358,9 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
           vec4(statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples),
                statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), length));
       measured.far = vec4(farProduct(surface, own, 0), farProduct(surface, own, 1));
+#ifdef SPECULAR
+      measured.statistics.yw /= residualGain(ownRoughness);  // As good as a gain, and trust does not know of it.
+#endif
     }
     if (isFirstOfQuad(p)) {
       innovation = meanInnovation(quad);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,11 +26,29 @@ namespace {
 
 using reference::Image;
 
+/// The eye's camera at the origin, whose picture has so many times as many pixels.
+FrameDescription zoomed(double zoom) {
+  FrameDescription camera = cameraAt({}, {}, kSize, 0);
+  for (glm::mat4* projection : {&camera.projection, &camera.previousProjection})
+    for (int axis = 0; axis < 2; ++axis) (*projection)[axis][axis] *= float(zoom);
+  return camera;
+}
+
 class FilterOf {
  public:
+  /// Of diffuse light.
   FilterOf(const fg::test::TestDevice& device, const Scene& scene, bool share)
-      : frame_(renderStill(scene, kSize)),
-        guides_(reference::prepareGuides(frame_, reference::Storage::Quantised, {}, kOcclusionInSmallImages)),
+      : FilterOf(device, renderStill(scene, kSize), share, {}) {}
+  /// Of specular light on a wall. Lobes are so many pixels wide that hardly any shows an image.
+  FilterOf(const fg::test::TestDevice& device, double roughness)
+      : FilterOf(device, renderFrame(flatWall(), zoomed(30.0), kSize), true,
+                 {kSize, reference::Reflector{roughness, 1.0}}) {}
+  FilterOf(const fg::test::TestDevice& device, const reference::HostFrame& frame, bool share,
+           const Image<reference::Reflector>& reflectors)
+      : frame_(frame),
+        guides_(reflectors.pixels().empty()
+                    ? reference::prepareGuides(frame_, reference::Storage::Quantised, {}, kOcclusionInSmallImages)
+                    : reflectingGuides(frame_)),
         run_(
             device, kSize, 2,
             [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
@@ -40,7 +59,7 @@ class FilterOf {
               settings.share.enabled = share;
               return addBlockFilter(graph, frame, light, guides, settings);
             },
-            true) {}
+            true, reflectors) {}
 
   Image<glm::dvec4> filter(const ResidualLight& light, std::uint32_t frameIndex = 0) {
     frame_.constants.frameIndex = frameIndex;
@@ -124,7 +143,9 @@ double bestShare(const Level& weighed, double trust) {
 /// statistics are those of earlier frames that all had this light and this prediction, unless others are given.
 class ExpectedResult {
  public:
-  ExpectedResult(const FilterOf& filter, const ResidualLight& light, const Image<glm::dvec4>& predicted)
+  /// @param roughness given for specular light
+  ExpectedResult(const FilterOf& filter, const ResidualLight& light, const Image<glm::dvec4>& predicted,
+                 std::optional<double> roughness = {})
       : guides_(filter.guides()), constants_(filter.constants()) {
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       const double y = luminanceOf(light.lighting[p]), m = luminanceOf(light.mean[p]), x = luminanceOf(predicted[p]);
@@ -132,6 +153,11 @@ class ExpectedResult {
       own_[p] = {y - x, h - x, m - x};
     });
     reference::forEachPixel(kSize, [&](glm::ivec2 p) { lookAround(p); });
+    if (roughness) {
+      edges_ = Image<int>(kSize, *roughness < 0.25 ? 1 : 0);  // Narrow lobes stand for edges.
+      lobeGain_ = std::pow(std::min(0.3 / *roughness, 1.0), 2.0);
+      leastShare_ = reference::imageShare(*roughness, std::abs(double(constants_.rayFromPixel.y)));
+    }
     sumOverTiles(predicted);
     statistics_ = statistics([](glm::ivec2) { return true; });
   }
@@ -227,9 +253,10 @@ class ExpectedResult {
     return weight.x * weight.y;
   }
 
-  static double shareOf(const Level& level, double trust, double samples, double gain) {
+  [[nodiscard]] double shareOf(const Level& level, double trust, double samples, double gain) const {
     const double least = AccumulatedShareSettings{}.leastShare;
-    return std::clamp((bestShare(weighed(level, samples, gain), trust) - least) / (1.0 - least), 0.0, 1.0);
+    const double share = bestShare(weighed(level, samples, lobeGain_ * gain), trust);
+    return std::clamp((share - least) / (1.0 - least), leastShare_, 1.0);
   }
 
   [[nodiscard]] glm::dvec3 positionOf(glm::ivec2 p) const {
@@ -289,6 +316,7 @@ class ExpectedResult {
   FrameConstants constants_;
   Image<Residual> own_{kSize}, around_{kSize};
   Image<int> edges_{kSize};
+  double lobeGain_ = 1.0, leastShare_ = 0.0;
   Image<Classes> tiles_{kTiles};
   std::array<Image<glm::dvec2>, 2> products_{Image<glm::dvec2>(kTiles), Image<glm::dvec2>(kTiles)};  ///< By axis.
   Image<double> tileLight_{kTiles}, pixels_{kTiles};
@@ -403,6 +431,31 @@ TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
   for (const auto& [scene, hasEdges] : {std::pair{flatWall(), false}, std::pair{thinBars(), true}}) {
     expectAgreement(light, scene, hasEdges, false);
     expectAgreement(withSharedNoise(light), scene, hasEdges, true);
+  }
+}
+
+// Lobes that are narrow, as wide as the wide ones whose gain is full, and wider.
+TEST_F(AccumulatedShare, OfSpecularLightAgreesWithDoublePrecision) {
+  const ResidualLight light = stripedLight(0.3, 1.0);
+  for (const double stored : {26.0, 64.0, 204.0}) {
+    const double roughness = stored / 255.0;  // .1, .25 and .8.
+    SCOPED_TRACE(roughness);
+    FilterOf filter(device(), roughness);
+    // The first frame has no statistics, and adds the least share s of the residual: p + s (m - p).
+    Image<glm::dvec4> predicted = filter.filter(light);
+    const double least = reference::imageShare(roughness, std::abs(double(filter.constants().rayFromPixel.y)));
+    ASSERT_LT(least, 0.05);
+    reference::forEachPixel(
+        kSize, [&](glm::ivec2 p) { predicted[p] = (predicted[p] - least * light.mean[p]) / (1.0 - least); });
+    const ExpectedResult expected(filter, light, predicted, roughness);
+    const Image<glm::dvec4> actual = filter.filter(light);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      const auto [around, detail] = expected.added(p);
+      const double x = predicted[p].g;
+      EXPECT_NEAR(actual[p].g, std::max(x + around + detail, 0.0),
+                  toleranceOf(std::max(x, light.mean[p].g), expected.residuals(p), expected.trustsInPart()))
+          << p.x << ", " << p.y;
+    });
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/passes/host_textures.h"
+#include "tests/passes/reference/block_regression.h"
 #include "tests/vulkan/test_device.h"
 
 namespace walr::test {
@@ -17,11 +18,12 @@ class FilterRun {
 
   /// @param inputSizes of the textures that the passes read
   /// @param occlusion  whether the guides include ambient occlusion
+  /// @param reflectors given for specular light: its features, in place of ambient occlusion
   FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, const std::vector<glm::ivec2>& inputSizes,
-            const Add& add, bool occlusion = false);
+            const Add& add, bool occlusion = false, const reference::Image<reference::Reflector>& reflectors = {});
   /// The same with inputs that all have the size of the guides.
   FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, std::size_t inputCount, const Add& add,
-            bool occlusion = false);
+            bool occlusion = false, const reference::Image<reference::Reflector>& reflectors = {});
 
   /// The result for these guides and inputs. Only the constants of the frame are used.
   reference::Image<glm::dvec4> run(const reference::HostFrame& frame, const reference::Image<reference::Guide>& guides,
@@ -31,9 +33,13 @@ class FilterRun {
   fg::Graph graph_;
   fg::Buffer frame_;
   Guides guides_;
+  reference::Image<reference::Reflector> reflectors_;
   std::vector<fg::Texture> inputs_;
   fg::Texture output_;
   std::unique_ptr<fg::test::GraphRun> run_;
 };
+
+/// Guides of specular light: depths and planes as they lie in one word, shading normals as in a word of their own.
+reference::Image<reference::Guide> reflectingGuides(const reference::HostFrame& frame);
 
 }  // namespace walr::test

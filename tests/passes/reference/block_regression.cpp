@@ -480,6 +480,10 @@ void forFourNeighbours(glm::ivec2 p, int size, const Image<Fit>& grid, Visit vis
 
 }  // namespace
 
+double imageShare(double roughness, double pixel) {
+  return 1.0 / (1.0 + std::pow(std::atan(roughness * roughness) / (2.0 * pixel), 2.0));
+}
+
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
                                   const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings,
                                   bool onLightGrid, const Image<Reflector>* reflectors) {
@@ -508,6 +512,7 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     double fineWeight = 0.0;
     double coarseWeight = 0.0;
     double samples = 0.0;
+    double all = 0.0;  // Weights before those of lobes.
     forFourNeighbours(p, cellSize, coarse, [&](glm::ivec2 cell, double bilinear) {
       if (coarse[cell].samples == 0.0) return;
       coarseSum += bilinear * evaluate(inputs, coarse[cell], p);
@@ -515,19 +520,26 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     });
     forFourNeighbours(p, int(settings.size), fine, [&](glm::ivec2 b, double bilinear) {
       if (fine[b].samples == 0.0) return;
+      const double onPlane = bilinear * facing(blocks[b].normal, octahedralDecode(guide.features)) *
+                             inputs.edgeStopping(blocks[b].pixel, blocks[b].depth, blocks[b].normal, p, guide.depth);
       const double weight =
-          bilinear * facing(blocks[b].normal, octahedralDecode(guide.features)) *
-          inputs.edgeStopping(blocks[b].pixel, blocks[b].depth, blocks[b].normal, p, guide.depth) *
+          onPlane *
           (reflectors != nullptr ? inLobe(lobeAt(inputs, p), {glm::normalize(lobeOf(fine[b].mean).direction)}) : 1.0);
+      all += onPlane;
       fineSum += weight * evaluate(inputs, fine[b], p);
       samples += weight * fine[b].samples;
       fineWeight += weight;
     });
     if (coarseWeight > 0.0) result[p] = coarseSum / coarseWeight;
-    if (fineWeight == 0.0) return;
-    const double trust = reflectors != nullptr ? std::pow(std::min((*reflectors)[p].roughness / 0.6, 1.0), 4.0) : 1.0;
-    const double share = coarseWeight > 0.0 ? coarseShare(settings, samples / fineWeight, trust) : 0.0;
-    result[p] = glm::mix(fineSum / fineWeight, result[p], share);
+    if (fineWeight > 0.0) {
+      const double trust = reflectors != nullptr ? std::pow(std::min((*reflectors)[p].roughness / 0.6, 1.0), 4.0) : 1.0;
+      const double share = coarseWeight > 0.0 ? coarseShare(settings, samples / fineWeight, trust) : 0.0;
+      result[p] = glm::mix(fineSum / fineWeight, result[p], share);
+    }
+    if (reflectors == nullptr) return;
+    const double known = all > 0.0 ? fineWeight / all : 1.0;
+    const double image = imageShare((*reflectors)[p].roughness, std::abs(double(frame.constants.rayFromPixel.y)));
+    result[p] = glm::mix(result[p], glm::dvec3(accumulated[p]), std::max(image, 1.0 - 2.0 * known));
   });
   return result;
 }
