@@ -54,6 +54,7 @@ layout(push_constant) uniform PushConstants {
 
 const float kNewtonUpTo = 0.3;            // Roughness.
 const int kMostNewtonSteps = 3;
+const float kSharpUpTo = 0.1;             // Roughness up to which the own sample tells the distance.
 const float kLongestNewtonStep = 8.0;     // Pixels.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
 const float kMostNormalChange = 0.5;      // Between pixels that tell the curvature.
@@ -92,20 +93,27 @@ bool showsSurface(ivec2 q, Reflector own, out vec3 position) {
   return areOnOneSurface(own.position, own.plane, position, unpackLongNormal(packedGeometricNormalAt(q)));
 }
 
-// 1 over the smallest distance that a sample of the 3 x 3 neighbours on the same surface has. 0 without samples: what
-// is reflected counts as far away.
-float inverseDistanceAround(ivec2 p, Reflector own) {
-  const float least = -kLeastDistance * own.position.z;
-  float nearest = 0.0;
+// What the samples of the 3 x 3 pixels on the same surface tell of the distance of what is reflected, over which is the
+// depth of the pixel.
+struct ReflectedSamples {
+  float nearest;   // Of the smallest distance. 0 without samples: what is reflected counts as far away.
+  float nearness;  // Mean; below 0 without samples.
+};
+
+ReflectedSamples samplesAround(ivec2 p, Reflector own) {
+  float nearest = 0.0, sum = 0.0, count = 0.0;
   vec3 position;
   for (int i = 0; i < 9; ++i) {
     const ivec2 q = p + ivec2(i % 3, i / 3) - 1;
     if (!showsSurface(q, own, position)) continue;
     const float distance = texelFetch(lighting, q, 0).a;
-    // The largest half stands for all that is farther.
-    if (distance > 0.0 && distance < kLargestHalf) nearest = max(nearest, 1.0 / max(distance, least));
+    if (!(distance > 0.0)) continue;
+    const float nearness = nearnessOf(distance, -own.position.z);
+    nearest = max(nearest, nearness);
+    sum += nearness;
+    count += 1.0;
   }
-  return nearest;
+  return ReflectedSamples(nearest, count > 0.0 ? sum / count : -1.0);
 }
 
 // In units of the depth of the pixel.
@@ -234,6 +242,7 @@ struct ReflectionMotion {
   float history;  // Longest, frames.
   float miss;     // Over the half angle that it is compared with.
   bool image;     // The mirror image is followed.
+  ReflectedSamples samples;  // Where that may be.
 };
 
 ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
@@ -242,9 +251,10 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   const Reflector surface = Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth,
                                       mat3(frame.previousViewFromView) * own.plane,
                                       mat3(frame.previousViewFromView) * own.normal, own.roughness);
-  ReflectionMotion result = ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false);
+  ReflectionMotion result = ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, -1.0));
   if (own.roughness < constants.surfaceFrom) {
-    const float inverseDistance = inverseDistanceAround(p, own);
+    result.samples = samplesAround(p, own);
+    const float inverseDistance = -result.samples.nearest / own.position.z;
     const vec3 mirrored = reflect(normalize(own.position), own.normal);
     const vec3 object = own.position + mirrored / max(inverseDistance, -1.0 / (kFarthestImage * own.position.z));
     const vec3 objectBefore = previousPosition(frame.previousViewFromView, object);
@@ -279,8 +289,16 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
 }
 
 #ifdef BLOCKS
-// The mean over time of what the samples of a pixel tell of the distance of what it reflects.
-ReflectedDistance meanDistance(ivec2 p, float z, ReflectionMotion m) {
+// What this frame's samples tell of the distance of what a pixel reflects, as a nearness; below 0 without any. Rough
+// surfaces reflect many things, of which the pixel's own sample is one by chance.
+float nearnessAt(ivec2 p, Reflector own, ReflectionMotion m) {
+  const float distance = texelFetch(lighting, p, 0).a;
+  if (own.roughness <= kSharpUpTo) return distance > 0.0 ? nearnessOf(distance, -own.position.z) : -1.0;
+  return own.roughness < constants.surfaceFrom ? m.samples.nearness : samplesAround(p, own).nearness;
+}
+
+// The mean over time of what samples tell of the distance of what a pixel reflects.
+ReflectedDistance meanDistance(ivec2 p, Reflector own, ReflectionMotion m) {
   HistoryTaps taps = tapsAround(p, m.motion, frame.previousPixelFromPixel);
   taps.accepted = m.taps;
   const vec4 weights = tapWeights(taps);
@@ -298,10 +316,9 @@ ReflectedDistance meanDistance(ivec2 p, float z, ReflectionMotion m) {
   const float scale = known > kLeastTapWeight ? 1.0 / known : 0.0;
   mean.inverse *= scale;
   mean.frames = min(scale * mean.frames, m.history);
-  const float distance = texelFetch(lighting, p, 0).a;
-  if (!(distance > 0.0)) return mean;
+  const float inverse = nearnessAt(p, own, m);
+  if (inverse < 0.0) return mean;
   mean.frames = min(mean.frames + 1.0, constants.maxHistory);
-  const float inverse = nearnessOf(distance, z);
   mean.inverse += (inverse - mean.inverse) / mean.frames;
   return mean;
 }
@@ -339,7 +356,7 @@ void main() {
   imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
   imageStore(outConfidence, p, vec4(m.history / constants.maxHistory));
 #ifdef BLOCKS
-  const ReflectedDistance distance = meanDistance(p, z, m);
+  const ReflectedDistance distance = meanDistance(p, own, m);
   imageStore(outDepth, p, uvec4(packDepthNormal(z, packShortNormal(own.plane))));
 #else
   const ReflectedDistance distance = ReflectedDistance(0.0, 0.0);

@@ -1,8 +1,10 @@
 // The method `walr` on specular light: its regression against the double-precision reference, and what its parts
 // promise.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -90,33 +92,58 @@ TEST_F(SpecularFilter, MirrorsKeepTheirLight) {
   EXPECT_GT(error(1.0), 0.1);
 }
 
+class SpecularDistance : public SpecularFilter {
+ protected:
+  /// A view of the regression at the centre of the picture, in the last of these frames.
+  [[nodiscard]] double viewAtCentre(const std::string& view, std::size_t component, std::span<const HostFrame> frames) {
+    const auto method = makeDenoiser("walr");
+    method->set("blocks.iterations", "1");
+    fg::Graph graph;
+    const DenoiserInputs inputs = importInputs(graph, kSize, {.specular = true});
+    const fg::Texture output = importOutput(graph, kSize);
+    Inspection inspection;
+    inspection.want(view, graph.import("view", {kViewFormat, graph.textureDesc(output).extent}, fg::vk::kOverwritable));
+    graph.exported(method->add({graph, inspection}, inputs, output), fg::vk::kReadable);
+    graph.exported(inspection.views().front().texture, fg::vk::kReadable);
+    fg::test::GraphRun run(device(), graph, fg::vk::ExecutorOptions{.shared = device().pipelines()});
+    for (const HostFrame& frame : frames) {
+      upload(run, inputs, frame);
+      run.frame();
+    }
+    const std::vector<float> texels = run.texels<float>(inspection.views().front().texture);
+    return texels[4 * static_cast<std::size_t>(kSize.y / 2 * kSize.x + kSize.x / 2) + component];
+  }
+};
+
 // The mean distance is that of inverse distances: of 1 and 1/3 at a depth d, d / 2 + d / 6. A pixel without a sample
 // keeps the mean.
-TEST_F(SpecularFilter, DistancesAreMeansOverTime) {
-  const auto method = makeDenoiser("walr");
-  method->set("blocks.iterations", "1");
-  fg::Graph graph;
-  const DenoiserInputs inputs = importInputs(graph, kSize, {.specular = true});
-  const fg::Texture output = importOutput(graph, kSize);
-  Inspection inspection;
-  inspection.want("feature-mean-2",
-                  graph.import("view", {kViewFormat, graph.textureDesc(output).extent}, fg::vk::kOverwritable));
-  graph.exported(method->add({graph, inspection}, inputs, output), fg::vk::kReadable);
-  graph.exported(inspection.views().front().texture, fg::vk::kReadable);
-  fg::test::GraphRun run(device(), graph, fg::vk::ExecutorOptions{.shared = device().pipelines()});
-  double depth = 0.0;
-  for (const double distance : {1.0, 3.0, 0.0}) {
-    const HostFrame frame = specularFrame(1.0, distance, 0);
-    upload(run, inputs, frame);
-    run.frame();
-    depth = frame.depth[kSize / 2];
-  }
-  const std::vector<float> view = run.texels<float>(inspection.views().front().texture);
-  const auto centre = static_cast<std::size_t>(kSize.y / 2 * kSize.x + kSize.x / 2);
+TEST_F(SpecularDistance, IsAMeanOverTime) {
+  const std::array frames{specularFrame(1.0, 1.0, 0), specularFrame(1.0, 3.0, 0), specularFrame(1.0, 0.0, 0)};
+  const double depth = frames.back().depth[kSize / 2];
   const double inverse = (depth + depth / 3.0) / 2.0;
   // The window reaches some 6 pixels from the centre of the picture, where view rays are 1.6 % longer; the feature then
   // differs by .003.
-  EXPECT_NEAR(view[4 * centre], 1.0 / (1.0 + 1.0 / inverse) - 1.0, 0.01);
+  EXPECT_NEAR(viewAtCentre("feature-mean-2", 0, frames), 1.0 / (1.0 + 1.0 / inverse) - 1.0, 0.01);
+}
+
+// Where distances alternate like the squares of a checker, each pixel of a rough surface knows of both. Up to a
+// roughness of .1, the own sample stands, and a block holds pixels like that which represents it.
+TEST_F(SpecularDistance, OfRoughSurfacesIsAMeanOverPixels) {
+  double depth = 0.0;
+  const auto featureAt = [&](double roughness) {
+    HostFrame frame = specularFrame(roughness, 1.0, 0);
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) { frame.lightAlpha[p] = (p.x + p.y) % 2 == 0 ? 1.0 : 3.0; });
+    depth = frame.depth[kSize / 2];
+    return viewAtCentre("feature-mean-2", 0, std::span(&frame, 1));
+  };
+  const auto featureOf = [&](double inverse) { return 1.0 / (1.0 + 1.0 / (depth * inverse)) - 1.0; };
+  const double rough = featureAt(0.2);
+  // Of nine pixels four or five show the nearer thing; .01 is as above.
+  EXPECT_GT(rough, featureOf((4.0 + 5.0 / 3.0) / 9.0) - 0.01);
+  EXPECT_LT(rough, featureOf((5.0 + 4.0 / 3.0) / 9.0) + 0.01);
+  // Pixels of the other distance count by exp(-.5 (ln 3 / .4)^2) = .023.
+  const double sharp = featureAt(0.05);
+  EXPECT_LT(std::min(std::abs(sharp - featureOf(1.0)), std::abs(sharp - featureOf(1.0 / 3.0))), 0.02);
 }
 
 TEST(SpecularFilterPlan, DiffuseLightHasNoShaderOfSpecularLight) {
