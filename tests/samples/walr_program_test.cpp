@@ -70,7 +70,7 @@ TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
   expectFailure(denoise({"--view", "?"}), kUsage, {"--list-views"});
   expectFailure(denoise({"--exposure", "bright"}), kUsage, {"--exposure bright", "auto"});
   expectFailure(denoise({"--direct-light", "none"}), kUsage, {"none"});
-  expectFailure(denoise({"--light", "all"}), kUsage, {"--light", "all"});
+  expectFailure(denoise({"--light", "every"}), kUsage, {"--light", "every"});
   expectFailure(walr({"graph", "--size", "10"}), kUsage, {"--size 10"});
 }
 
