@@ -93,11 +93,10 @@ bool showsSurface(ivec2 q, Reflector own, out vec3 position) {
   return areOnOneSurface(own.position, own.plane, position, unpackLongNormal(packedGeometricNormalAt(q)));
 }
 
-// What the samples of the 3 x 3 pixels on the same surface tell of the distance of what is reflected, over which is the
-// depth of the pixel.
+// Depth of a pixel over the distances that the samples of the 3 x 3 pixels on the same surface have.
 struct ReflectedSamples {
-  float nearest;   // Of the smallest distance. 0 without samples: what is reflected counts as far away.
-  float nearness;  // Mean; below 0 without samples.
+  float nearest;   // The largest. 0 without samples: what is reflected counts as far away.
+  float nearness;  // The mean; below 0 without samples.
 };
 
 ReflectedSamples samplesAround(ivec2 p, Reflector own) {
@@ -242,7 +241,7 @@ struct ReflectionMotion {
   float history;  // Longest, frames.
   float miss;     // Over the half angle that it is compared with.
   bool image;     // The mirror image is followed.
-  ReflectedSamples samples;  // Where that may be.
+  ReflectedSamples samples;  // Only where a mirror image is a candidate.
 };
 
 ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
@@ -251,7 +250,8 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   const Reflector surface = Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth,
                                       mat3(frame.previousViewFromView) * own.plane,
                                       mat3(frame.previousViewFromView) * own.normal, own.roughness);
-  ReflectionMotion result = ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, -1.0));
+  ReflectionMotion result =
+      ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, -1.0));
   if (own.roughness < constants.surfaceFrom) {
     result.samples = samplesAround(p, own);
     const float inverseDistance = -result.samples.nearest / own.position.z;
@@ -289,11 +289,13 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
 }
 
 #ifdef BLOCKS
-// What this frame's samples tell of the distance of what a pixel reflects, as a nearness; below 0 without any. Rough
-// surfaces reflect many things, of which the pixel's own sample is one by chance.
+// Depth of a pixel over the distance of what it reflects, by this frame's samples; below 0 without any. A rough surface
+// reflects many things, and the pixel's own sample shows one of them by chance.
 float nearnessAt(ivec2 p, Reflector own, ReflectionMotion m) {
-  const float distance = texelFetch(lighting, p, 0).a;
-  if (own.roughness <= kSharpUpTo) return distance > 0.0 ? nearnessOf(distance, -own.position.z) : -1.0;
+  if (own.roughness <= kSharpUpTo) {
+    const float distance = texelFetch(lighting, p, 0).a;
+    return distance > 0.0 ? nearnessOf(distance, -own.position.z) : -1.0;
+  }
   return own.roughness < constants.surfaceFrom ? m.samples.nearness : samplesAround(p, own).nearness;
 }
 

@@ -119,11 +119,16 @@ TEST_F(TwoLights, OfTwoKindsAreThoseOfTwoDenoisers) {
   EXPECT_GE(tried, 1);
 }
 
-TEST_F(TwoLights, OfTwoKindsHaveConventionsOfAHost) {
+WalrConventions exposedInARectangle() {
   WalrConventions conventions{};
   conventions.struct_size = sizeof(conventions);
   conventions.pre_exposed = VK_TRUE;
   conventions.rectangle = VK_TRUE;
+  return conventions;
+}
+
+TEST_F(TwoLights, OfTwoKindsHaveConventionsOfAHost) {
+  const WalrConventions conventions = exposedInARectangle();
   WalrDenoiserInfo one = described("accumulate");
   one.conventions = &conventions;
   one.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -132,10 +137,7 @@ TEST_F(TwoLights, OfTwoKindsHaveConventionsOfAHost) {
 }
 
 TEST_F(TwoLights, HavePresetsAndConventionsOfAHost) {
-  WalrConventions conventions{};
-  conventions.struct_size = sizeof(conventions);
-  conventions.pre_exposed = VK_TRUE;
-  conventions.rectangle = VK_TRUE;
+  const WalrConventions conventions = exposedInARectangle();
   WalrDenoiserInfo one = described("bmfr");
   one.conventions = &conventions;
   one.denoised_format = VK_FORMAT_R32G32B32A32_SFLOAT;

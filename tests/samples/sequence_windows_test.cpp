@@ -1,5 +1,6 @@
 // Frames that are a part of the picture or reach beyond it, and frames of one eye or of other renderers. The files are
 // those of `exrBytes`, so that every value tells its pixel and its channel.
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -242,18 +243,24 @@ TEST_F(SequenceWindows, AMapSaysWhichChannelsHoldWhat) {
   EXPECT_NEAR(frame.depth.at(3, 0, 0), valueAt(3, 0, 0) / 1.25F, 1e-6F);
 }
 
+/// The map with specular light, which is in these channels.
+constexpr std::array kSpecularChannels{"s.R", "s.G", "s.B", "c.R", "c.G", "c.B", "d.Z", "r.Y"};
+std::string mapWithSpecularLight() {
+  std::string json = kMap;
+  json.insert(json.find("\"Indirect\""), R"("Specular": ["s.R", "s.G", "s.B"], "SpecularAlbedo": ["c.R", "c.G", "c.B"],
+    "SpecularDistance": ["d.Z"], "Roughness": ["r.Y"], )");
+  return json;
+}
+
 // Lights times albedo are divided by their own albedos; a composite adds specular light as the file has it.
 TEST_F(SequenceWindows, AMapFindsSpecularLight) {
   files.writeCameras(0, 0);
-  const std::string named = R"("Specular": ["s.R", "s.G", "s.B"], "SpecularAlbedo": ["c.R", "c.G", "c.B"],
-    "SpecularDistance": ["d.Z"], "Roughness": ["r.Y"], )";
-  std::string json = kMap;
-  json.insert(json.find("\"Indirect\""), named);
+  std::string json = mapWithSpecularLight();
   SequenceOptions options;
   options.channelMap = writeMap(json);
   std::vector<std::string> channels = mappedChannels();
   const int first = static_cast<int>(channels.size());
-  for (const char* const name : {"s.R", "s.G", "s.B", "c.R", "c.G", "c.B", "d.Z", "r.Y"}) channels.emplace_back(name);
+  channels.insert(channels.end(), kSpecularChannels.begin(), kSpecularChannels.end());
   writeFile("f0.exr", {.parts = {ExrPart{.channels = channels}}});
   writeFile("ref_f0.exr", {.parts = {ExrPart{.channels = channels}}});
 
@@ -287,13 +294,11 @@ TEST_F(SequenceWindows, AMapFindsSpecularLight) {
 // A half without its whole is no reference.
 TEST_F(SequenceWindows, AReferenceMayLackSpecularLight) {
   files.writeCameras(0, 0);
-  std::string json = kMap;
-  json.insert(json.find("\"Indirect\""), R"("Specular": ["s.R", "s.G", "s.B"], "SpecularAlbedo": ["c.R", "c.G", "c.B"],
-    "SpecularDistance": ["d.Z"], "Roughness": ["r.Y"], )");
+  const std::string json = mapWithSpecularLight();
   std::vector<std::string> channels = mappedChannels();
   for (const char* const name : {"SpecularA.R", "SpecularA.G", "SpecularA.B"}) channels.emplace_back(name);
   writeFile("ref_f0.exr", {.parts = {ExrPart{.channels = channels}}});
-  for (const char* const name : {"s.R", "s.G", "s.B", "c.R", "c.G", "c.B", "d.Z", "r.Y"}) channels.emplace_back(name);
+  channels.insert(channels.end(), kSpecularChannels.begin(), kSpecularChannels.end());
   writeFile("f0.exr", {.parts = {ExrPart{.channels = channels}}});
   SequenceOptions options;
   options.channelMap = writeMap(json);
