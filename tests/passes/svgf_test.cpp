@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
 
 #include "passes/methods/svgf.h"
 #include "tests/error_text.h"
