@@ -1,4 +1,5 @@
-"""The scene gloss: a floor whose roughness rises from left to right, and a still mirror that a ball moves past."""
+"""The scenes gloss and mirrors: a floor whose roughness rises from left to right and a still mirror that a ball moves past; and a
+corridor between two mirrors."""
 
 import math
 
@@ -64,4 +65,36 @@ def make_gloss():
     scene.camera([(round(-0.5 + 0.02 * s, 6), 1.15, round(2.2 - 0.015 * s, 6)) for s in steps],
                  [(round(-0.1 + 0.008 * s, 6), 0.25, -0.6) for s in steps])
     scene.camera([(0.9, 1.25, 1.2)] * frames, [(-0.1, 1.05, -2.48)] * frames, "mirror")
+    return scene
+
+
+def make_mirrors():
+    """A corridor of 2.4 x 2.4 x 8 m. Its side walls are mirrors that show each other from x = -1.2 and 1.2 on."""
+    scene = Gltf("mirrors", [0.4, 0.5, 0.6])
+    stone = scene.material("stone", (0.62, 0.6, 0.55))
+    shell = Mesh()
+    shell.quad((-1.2, 0, 4), (2.4, 0, 0), (0, 0, -8))
+    shell.quad((-1.2, 2.4, -4), (2.4, 0, 0), (0, 0, 8))
+    scene.mesh("floor and ceiling", shell, stone)
+    for name, paint, corner, right in (("red end", (0.6, 0.14, 0.1), (-1.2, 0, -4), (2.4, 0, 0)),
+                                       ("blue end", (0.15, 0.25, 0.6), (1.2, 0, 4), (-2.4, 0, 0))):
+        end = Mesh()
+        end.quad(corner, right, (0, 2.4, 0))
+        scene.mesh(name, end, scene.material(name, paint))
+    sides = Mesh()
+    sides.quad((-1.2, 0, 4), (0, 0, -8), (0, 2.4, 0))
+    sides.quad((1.2, 0, -4), (0, 0, 8), (0, 2.4, 0))
+    scene.mesh("mirrors", sides, scene.material("mirror", (0, 0, 0), pbrMetallicRoughness=metal((0.9, 0.9, 0.9), 0.0)))
+    lamps = Mesh()
+    for z in (-2.6, 0.0, 2.6):
+        lamps.quad((-0.8, 2.39, z - 0.7), (1.6, 0, 0), (0, 0, 1.4))
+    scene.mesh("lamps", lamps, scene.material("lamp", (0.0, 0.0, 0.0), emission=(1.6, 1.45, 1.2)))
+    for i, paint in enumerate(((0.75, 0.6, 0.2), (0.2, 0.5, 0.2), (0.7, 0.7, 0.68), (0.15, 0.3, 0.7))):
+        x, z = 0.75 - 0.5 * (i % 2), 0.9 - 1.25 * i
+        scene.mesh(f"plinth {i}", Mesh().block((x, 0.35, z), (0.4, 0.7, 0.4), 25.0 * i), stone)
+        scene.mesh(f"ball {i}", ball(0.22), scene.material(f"paint {i}", paint), translation=[x, 0.92, z])
+        scene.mesh(f"pole {i}", Mesh().block((x + 0.3, 1.2, z - 0.4), (0.04, 2.4, 0.04)), stone)
+    frames = range(48)
+    scene.camera([(round(-0.75 + 0.004 * i, 6), 1.3, round(3.2 - 0.025 * i, 6)) for i in frames],
+                 [(round(-1.1 + 0.01 * i, 6), 0.95, -1.5) for i in frames])
     return scene

@@ -1,4 +1,4 @@
-"""The scene kitchen: a cluttered interior whose only light is the sky behind one barred window."""
+"""The scenes kitchen and kitchen_gloss: a cluttered interior whose only light is the sky behind one barred window."""
 
 import math
 
@@ -9,6 +9,10 @@ BOWL = [(0.0, 0.0), (0.04, 0.0), (0.075, 0.03), (0.09, 0.07), (0.086, 0.07), (0.
 CUP = [(0.0, 0.0), (0.03, 0.0), (0.037, 0.08), (0.033, 0.08), (0.027, 0.006), (0.0, 0.006)]
 PLATE = [(0.0, 0.0), (0.07, 0.0), (0.12, 0.015), (0.118, 0.019), (0.068, 0.006), (0.0, 0.006)]
 BOTTLE = [(0.0, 0.0), (0.035, 0.0), (0.037, 0.16), (0.014, 0.22), (0.014, 0.28), (0.0, 0.28)]
+
+# Metallic and linear roughness of what reflects in kitchen_gloss. Copper's colour is then its reflectance.
+GLOSS = {"tin": (1.0, 0.25), "copper": (1.0, 0.2), "clay": (0.0, 0.15), "china": (0.0, 0.12), "green glass": (0.0, 0.05),
+         "painted": (0.0, 0.35), "oak": (0.0, 0.45)}
 
 
 def chair():
@@ -132,4 +136,17 @@ def make_kitchen():
     frames = range(48)
     scene.camera([(round(0.9 - 0.022 * i, 6), round(1.42 - 0.002 * i, 6), round(1.75 - 0.008 * i, 6)) for i in frames],
                  [(round(0.1 - 0.006 * i, 6), 0.85, -0.6) for i in frames])
+    return scene
+
+
+def make_kitchen_gloss():
+    """The kitchen with pots, cutlery and ladles of metal, and varnish on its floor, wood and china."""
+    scene = make_kitchen()
+    scene.document["scenes"][0]["name"] = "kitchen_gloss"
+    materials = {material["name"]: material["pbrMetallicRoughness"] for material in scene.document["materials"]}
+    for name, (metallic, roughness) in GLOSS.items():
+        materials[name].update(metallicFactor=metallic, roughnessFactor=roughness)
+    frames = range(48)
+    scene.camera([(round(1.92 - 0.022 * i, 6), 1.15, -0.75) for i in frames],
+                 [(-1.3, 0.42, round(-0.94 + 0.01 * i, 6)) for i in frames], "floor")
     return scene

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the built-in scenes, as the build does: box.gltf, turntable.gltf, kitchen.gltf, stair.gltf,
-garden.gltf, gloss.gltf.
+garden.gltf, gloss.gltf, kitchen_gloss.gltf, mirrors.gltf.
 
     make_scenes.py FOLDER
 
@@ -15,12 +15,12 @@ import sys
 sys.dont_write_bytecode = True
 from box_scenes import make_box, make_turntable
 from garden_scene import make_garden
-from gloss_scene import make_gloss
-from kitchen_scene import make_kitchen
+from gloss_scene import make_gloss, make_mirrors
+from kitchen_scene import make_kitchen, make_kitchen_gloss
 from stair_scene import make_stair
 
 SCENES = {"box": make_box, "turntable": make_turntable, "kitchen": make_kitchen, "stair": make_stair, "garden": make_garden,
-          "gloss": make_gloss}
+          "gloss": make_gloss, "kitchen_gloss": make_kitchen_gloss, "mirrors": make_mirrors}
 
 
 def main():

@@ -97,7 +97,7 @@ std::string asGlb(const fs::path& file) {
 }
 
 TEST_F(Gltf, BuiltInScenesLoadWithoutWarnings) {
-  for (const char* name : {"box", "turntable", "kitchen", "stair", "garden"}) {
+  for (const char* name : {"box", "turntable", "kitchen", "stair", "garden", "gloss", "kitchen_gloss", "mirrors"}) {
     const Scene scene = loadScene(fs::path(WALR_SCENES) / (std::string(name) + ".gltf"));
     EXPECT_TRUE(scene.warnings.empty()) << testing::PrintToString(scene.warnings);
     EXPECT_GT(scene.meshes.size(), 6U);
