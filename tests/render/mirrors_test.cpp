@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "samples/render/film.h"
 #include "samples/render/gbuffer.h"
+#include "samples/render/load_scene.h"
 #include "samples/render/view.h"
 #include "samples/render/world.h"
 #include "tests/render/ggx.h"
@@ -99,6 +102,31 @@ TEST(Mirrors, ShowWhatStandsBehindThem) {
   }
   EXPECT_GT(compared, 200);
   EXPECT_LE(edges, 2);
+}
+
+// Between parallel mirrors, virtual images lie in copies of the corridor, every other one of them mirrored.
+TEST(Mirrors, ShowEachOther) {
+  const Scene scene = loadScene(WALR_SCENES "/mirrors.gltf");
+  const World world(scene);
+  const View view = viewFrom(world, findCamera(scene, ""), kWidth, kHeight, glm::vec2(0.0F), glm::vec2(0.0F));
+  constexpr float kBetweenMirrors = 2.4F;
+  std::map<int, int> pixels;
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      const PrimaryHit shown = tracePrimary(world, view, x, y, GBufferMode::BehindMirrors);
+      ASSERT_TRUE(shown.surface);
+      const glm::vec3& position = shown.pixel.position;
+      // On the pixel's ray; tolerances as above.
+      EXPECT_LT(glm::distance(project(view, position), glm::vec2(x, y) + 0.5F), 1e-3F);
+      glm::vec3 point(glm::inverse(view.viewFromWorld) * glm::vec4(position, 1.0F));
+      const float copy = std::round(point.x / kBetweenMirrors);
+      const float side = std::fmod(copy, 2.0F) == 0.0F ? 1.0F : -1.0F;
+      point.x = side * (point.x - copy * kBetweenMirrors);
+      EXPECT_LT(glm::distance(point, shown.surface->position), 1e-4F);
+      ++pixels[static_cast<int>(std::abs(copy))];
+    }
+  }
+  for (const int mirrors : {0, 1, 2}) EXPECT_GT(pixels[mirrors], 50) << mirrors;
 }
 
 // Only smooth metals are replaced. What they show is as dark as they reflect.
