@@ -98,13 +98,14 @@ def run_walr(walr, *arguments):
         sys.exit(f"{' '.join(map(str, (walr, *arguments)))} failed:\n{done.stderr[-2000:]}")
 
 
-def renderer_version(walr, scene, camera=""):
-    """The version of the renderer as far as this scene shows it: a hash of two tiny pictures and a reference of it.
+def renderer_version(walr, scene, camera="", *options):
+    """The version of the renderer as far as this scene shows it: a hash of two tiny pictures and a reference of it, with these options
+    more.
 
     A change of the program that changes no pixel keeps what has been rendered; one that changes pixels does not."""
     with tempfile.TemporaryDirectory() as folder:
         run_walr(walr, "render", scene, "--output", folder, "--frames", "9-10", "--size", "48x27", "--spp", "2", "--jitter",
-                 "--reference-spp", "2", "--reference-pixel", "area", *(["--camera", camera] if camera else []))
+                 "--reference-spp", "2", "--reference-pixel", "area", *(["--camera", camera] if camera else []), *options)
         files = sorted(pathlib.Path(folder).glob("*.exr"))
         return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:16]
 

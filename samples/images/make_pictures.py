@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes the pictures of the README from sequences of the corpus (samples/corpus/entries.py).
+"""Makes the pictures of the README.
 
     make_pictures.py [--walr build/bin/walr] [--cache DIR] [--only comparison|animation]
 
@@ -8,12 +8,11 @@ writes to this script's folder
     comparison.webp   a frame of COMPARED: noisy, denoised, reference side by side, and two enlarged crops of each
     animation.webp    frames of ANIMATED: the left half of the picture noisy, the right half denoised
 
-Direct and indirect light are both noisy, with one sample per pixel each, and both are denoised. Frames are rendered
-into the corpus's cache and kept there: some ten minutes on two idle cores. Needs numpy and Pillow, which come with
-Debian's python3-matplotlib.
+All light is noisy, with one sample per pixel of direct, indirect and, in COMPARED, specular light, and all of it is denoised. Frames
+are rendered into the corpus's cache and kept there: some five minutes on two idle cores, and one once they are there. Needs numpy and
+Pillow, which come with Debian's python3-matplotlib.
 """
 import argparse
-import dataclasses
 import pathlib
 import subprocess
 import sys
@@ -32,26 +31,40 @@ import judging
 import places
 import rendering
 
-COMPARED = "kitchen_540"
-ANIMATED = "sponza_360"
+COMPARED = entries.built_in("kitchen_gloss", "kitchen_gloss", entries.QHD, (19, 19), 1, reference_samples=48, camera="floor")
+ANIMATED = entries.corpus()["sponza_360"]
 ANIMATED_FRAMES = 20, 51
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
-# Upper left corners in the picture of COMPARED: dishes on a table; cups and ladles on a wall.
-CROPS = [(420, 270), (300, 110)]
+# Upper left corners in the picture of COMPARED: a pot and a bowl; the window in the varnish of the floor.
+CROPS = [(120, 215), (330, 450)]
 CROP = (120, 90)
 SCALE = 4
 
 
+def rendered(cache, entry, options, *specular):
+    """The folder of an entry's frames, rendered into the cache with these options of `walr render`."""
+    version = entries.renderer_version(cache.walr, entry.scene, entry.camera, *specular)
+    key = entries.key([entry.reference_settings(), options, *specular], version)
+    frames = cache.folder / "pictures" / f"{entry.name}-{key}"
+    frames.mkdir(parents=True, exist_ok=True)
+    command = [cache.walr, "render", entry.scene, "--output", frames, *options, *specular]
+    subprocess.run(list(map(str, command)), check=True)
+    return frames
+
+
 def lit(guides, light):
-    """The lit image: albedo times light, plus emission."""
+    """The lit image: albedo times light, of each lobe that there is, plus emission."""
     diffuse = exr.colour(light, "Direct") + exr.colour(light, "Indirect")
-    return exr.colour(guides, "Albedo") * diffuse + exr.colour(guides, "Emission")
+    image = exr.colour(guides, "Albedo") * diffuse + exr.colour(guides, "Emission")
+    if "Specular.R" in guides:
+        image += exr.colour(guides, "SpecularAlbedo") * exr.colour(light, "Specular")
+    return image
 
 
-def lit_pictures(walr, frames, indices):
+def lit_pictures(walr, frames, light, indices):
     """The lit images of some frames of a folder, noisy and denoised. All frames before them are history."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [walr, "denoise", frames, "--output", folder, "--light", "both"]
+        command = [walr, "denoise", frames, "--output", folder, "--light", light]
         subprocess.run(list(map(str, command)), check=True, capture_output=True)
         pictures = []
         for index in indices:
@@ -92,18 +105,15 @@ def framed(picture):
 
 
 def comparison(cache):
-    """Three pictures side by side, below each two crops of it: the last judged frame, its reference over all of the image."""
-    entry = entries.corpus()[COMPARED]
-    last = entry.judged[1]
-    whole = dataclasses.replace(entry, judged=(last, last), one_square_in=1)
-    rendering.render_all([whole], cache, print)
-    frames = cache.sequence(whole)
-    (noisy, denoised), = lit_pictures(cache.walr, frames, [last])
+    """Three pictures side by side, below each two crops of it."""
+    last = COMPARED.judged[1]
+    frames = rendered(cache, COMPARED, COMPARED.render_options(), "--specular")
+    (noisy, denoised), = lit_pictures(cache.walr, frames, "all", [last])
     reference = lit(exr.read(frames / f"noisy_{last:04d}.exr"), exr.read(frames / f"ref_{last:04d}.exr"))
     exposure = exposure_of(reference)
     columns = []
     for image, text in ((noisy, "1 sample per pixel"), (denoised, "denoised by walr"),
-                        (reference, f"reference, {whole.reference_samples} samples per pixel")):
+                        (reference, f"reference, {COMPARED.reference_samples} samples per pixel")):
         picture = places.displayed(image, exposure)
         crops = np.concatenate([enlarged(picture, corner) for corner in CROPS], axis=1)
         columns.append(np.concatenate([labelled(framed(picture), text), crops], axis=0))
@@ -114,14 +124,9 @@ def animation(cache):
     """The left half of each picture noisy, the right half denoised, at the exposure of the first one.
 
     Without the corpus's jitter: no anti-aliasing of the lit image follows here, which a host that jitters has."""
-    entry = entries.corpus()[ANIMATED]
     first, last = ANIMATED_FRAMES
-    options = entry.noisy_options((first - entries.WARM_UP, last), jitter=False)
-    key = entries.key([entry.reference_settings(), options], cache.version(entry))
-    frames = cache.folder / "animation" / f"{entry.name}-{key}"
-    frames.mkdir(parents=True, exist_ok=True)
-    subprocess.run(list(map(str, [cache.walr, "render", entry.scene, "--output", frames, *options])), check=True)
-    pairs = lit_pictures(cache.walr, frames, range(first, last + 1))
+    frames = rendered(cache, ANIMATED, ANIMATED.noisy_options((first - entries.WARM_UP, last), jitter=False))
+    pairs = lit_pictures(cache.walr, frames, "both", range(first, last + 1))
     exposure = exposure_of(pairs[0][1])
     pictures = []
     for noisy, denoised in pairs:
