@@ -26,7 +26,7 @@ uniform utexture2D geometricNormal;
 uniform utexture2D shadingNormal;
 uniform usampler2D previousDepth;
 uniform usampler2D previousGeometricNormal;
-uniform utexture2D previousReflector;
+uniform usampler2D previousReflector;
 #ifdef VIEW
 layout(rgba32f) uniform writeonly image2D outView;
 #else
@@ -36,6 +36,11 @@ layout(rg32ui) uniform writeonly uimage2D outReflector;
 #ifdef BLOCKS
 layout(r32ui) uniform writeonly uimage2D outDepth;
 #endif
+#endif
+#ifdef BLOCKS
+const bool kBlocks = true;
+#else
+const bool kBlocks = false;
 #endif
 layout(push_constant) uniform PushConstants {
   ReflectionMotionConstants constants;
@@ -69,11 +74,32 @@ struct Reflector {
   float roughness;
 };
 
-// Of this frame. `z`: its depth.
-Reflector reflectorAt(ivec2 p, float z) {
-  return Reflector(rayThrough(frame.rayFromPixel, pixelCentre(p)) * z, unpackLongNormal(packedGeometricNormalAt(p)),
-                   unpackLongNormal(texelFetch(shadingNormal, p, 0).x),
-                   validRoughness(texelFetch(roughness, p, 0).x));
+// What the pixels of a work group show, and those around it that tell the curvature.
+const int kTileSide = int(gl_WorkGroupSize.x) + 2 * kCurvatureStep;
+shared vec4 tilePlanes[kTileSide * kTileSide];   // Geometric normal; depth, 0 outside the image.
+shared vec4 tileNormals[kTileSide * kTileSide];  // Shading normal; distance of what is reflected.
+
+void fillTile() {
+  const ivec2 first = ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy) - kCurvatureStep;
+  for (int i = int(gl_LocalInvocationIndex); i < kTileSide * kTileSide; i += 64) {
+    const ivec2 there = first + ivec2(i % kTileSide, i / kTileSide);
+    const ivec2 q = clamp(there, ivec2(0), textureSize(depth, 0) - 1);
+    tilePlanes[i] = vec4(unpackLongNormal(packedGeometricNormalAt(q)), q == there ? depthAt(q) : 0.0);
+    tileNormals[i] = vec4(unpackLongNormal(texelFetch(shadingNormal, q, 0).x), texelFetch(lighting, q, 0).a);
+  }
+}
+
+// The place in the tile of the pixel that is `offset` away from this thread's.
+int inTile(ivec2 offset) {
+  const ivec2 q = ivec2(gl_LocalInvocationID.xy) + kCurvatureStep + offset;
+  return q.y * kTileSide + q.x;
+}
+
+// That of this thread's pixel `p`.
+Reflector reflectorAt(ivec2 p) {
+  const vec4 plane = tilePlanes[inTile(ivec2(0))];
+  return Reflector(rayThrough(frame.rayFromPixel, pixelCentre(p)) * plane.w, plane.xyz,
+                   tileNormals[inTile(ivec2(0))].xyz, validRoughness(texelFetch(roughness, p, 0).x));
 }
 
 // Whether two points with their geometric normals lie on one surface. The mean of the normals is perpendicular to the
@@ -83,14 +109,11 @@ bool areOnOneSurface(vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
   return facing && abs(dot(b - a, normalA + normalB)) <= -2.0 * constants.planeTolerance * a.z;
 }
 
-// Whether this frame's pixel `q` shows the surface of `own`, and where.
-bool showsSurface(ivec2 q, Reflector own, out vec3 position) {
-  position = own.position;
-  if (any(greaterThanEqual(uvec2(q), uvec2(textureSize(depth, 0))))) return false;
-  const float z = depthAt(q);
-  if (z == 0.0) return false;
-  position = rayThrough(frame.rayFromPixel, pixelCentre(q)) * z;
-  return areOnOneSurface(own.position, own.plane, position, unpackLongNormal(packedGeometricNormalAt(q)));
+// Whether the pixel `offset` away from `p` shows the surface of `own`, and where.
+bool showsSurface(ivec2 p, ivec2 offset, Reflector own, out vec3 position) {
+  const vec4 plane = tilePlanes[inTile(offset)];
+  position = rayThrough(frame.rayFromPixel, pixelCentre(p + offset)) * plane.w;
+  return plane.w > 0.0 && areOnOneSurface(own.position, own.plane, position, plane.xyz);
 }
 
 // Depth of a pixel over the distances that the samples of the 3 x 3 pixels on the same surface have.
@@ -103,9 +126,9 @@ ReflectedSamples samplesAround(ivec2 p, Reflector own) {
   float nearest = 0.0, sum = 0.0, count = 0.0;
   vec3 position;
   for (int i = 0; i < 9; ++i) {
-    const ivec2 q = p + ivec2(i % 3, i / 3) - 1;
-    if (!showsSurface(q, own, position)) continue;
-    const float distance = texelFetch(lighting, q, 0).a;
+    const ivec2 offset = ivec2(i % 3, i / 3) - 1;
+    if (!showsSurface(p, offset, own, position)) continue;
+    const float distance = tileNormals[inTile(offset)].w;
     if (!(distance > 0.0)) continue;
     const float nearness = nearnessOf(distance, -own.position.z);
     nearest = max(nearest, nearness);
@@ -120,10 +143,10 @@ vec2 curvaturesAt(ivec2 p, Reflector own, Incidence incidence) {
   const float unit = -1.0 / own.position.z;
   ShapeSums sums = ShapeSums(mat2(0.0), mat2(0.0));
   vec3 position;
-  for (int i = 0; i < 9; ++i) {
-    const ivec2 q = p + kCurvatureStep * (ivec2(i % 3, i / 3) - 1);
-    if (i == 4 || !showsSurface(q, own, position)) continue;
-    const vec3 change = unpackLongNormal(texelFetch(shadingNormal, q, 0).x) - own.normal;
+  [[unroll]] for (int i = 0; i < 9; ++i) {
+    const ivec2 offset = kCurvatureStep * (ivec2(i % 3, i / 3) - 1);
+    if (i == 4 || !showsSurface(p, offset, own, position)) continue;
+    const vec3 change = tileNormals[inTile(offset)].xyz - own.normal;
     if (dot(change, change) >= kMostNormalChange * kMostNormalChange) continue;
     addDifference(sums, incidence, (position - own.position) * unit, change);
   }
@@ -165,20 +188,20 @@ struct Before {
 
 // `surface`: where the surface itself was. `valid`: whether that is known.
 Before surfaceBefore(HistoryTaps taps, Reflector surface, bool valid) {
-  const ivec2 size = textureSize(previousReflector, 0);
-  const bvec4 inside = tapsInside(taps, size);
+  const bvec4 inside = tapsInside(taps, textureSize(previousReflector, 0));
+  const vec2 corner = sharedCorner(taps, frame.previousTexel);
+  const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
+  const uvec4 planes = gatherTaps(previousGeometricNormal, corner);
+  const uvec4 words[2] = {gatherTaps(previousReflector, corner), textureGather(previousReflector, corner, 1).wzxy};
   vec3 positions[4], normals[4];
   Before b;
   [[unroll]] for (int i = 0; i < 4; ++i) {
-    const ivec2 q = clamp(historyTap(taps, i), ivec2(0), size - 1);
-    const float z = unpackDepth(texelFetch(previousDepth, q, 0).x);
-    const vec3 plane = unpackLongNormal(texelFetch(previousGeometricNormal, q, 0).x);
-    const uvec2 reflector = texelFetch(previousReflector, q, 0).xy;
-    positions[i] = rayThrough(frame.previousRayFromPixel, (vec2(q) + 0.5) * frame.pixelFromPreviousPixel) * z;
-    normals[i] = unpackLongNormal(reflector.x);
-    const float rougher = roughnessOf(reflector) - surface.roughness;
-    b.accepted[i] = valid && inside[i] && z > 0.0 && abs(rougher) <= kRoughnessTolerance &&
-                    areOnOneSurface(surface.position, surface.plane, positions[i], plane);
+    const vec2 q = vec2(historyTap(taps, i)) + 0.5;
+    positions[i] = rayThrough(frame.previousRayFromPixel, q * frame.pixelFromPreviousPixel) * depths[i];
+    normals[i] = unpackLongNormal(words[0][i]);
+    const float rougher = roughnessOf(uvec2(words[0][i], words[1][i])) - surface.roughness;
+    b.accepted[i] = valid && inside[i] && depths[i] > 0.0 && abs(rougher) <= kRoughnessTolerance &&
+                    areOnOneSurface(surface.position, surface.plane, positions[i], unpackLongNormal(planes[i]));
   }
   taps.accepted = b.accepted;
   const vec4 weights = tapWeights(taps);
@@ -214,16 +237,17 @@ vec3 missOf(vec3 object, vec3 position, vec3 normal) {
 // A candidate for the place of reflected light in the previous image.
 struct Candidate {
   vec2 position;
-  float miss;  // kNoHistory: there is none.
+  vec3 missed;  // missOf.
+  float miss;   // Its length; kNoHistory: there is none.
 };
 
 Candidate candidateFrom(vec2 position, Before b, vec3 object) {
-  return Candidate(position, b.found ? length(missOf(object, b.position, b.normal)) : kNoHistory);
+  const vec3 missed = missOf(object, b.position, b.normal);
+  return Candidate(position, missed, b.found ? length(missed) : kNoHistory);
 }
 
 // One step of Newton's method on the miss, in pixels of the previous frame.
-vec2 newtonStep(Before b, vec3 object) {
-  const vec3 miss = missOf(object, b.position, b.normal);
+vec2 newtonStep(Before b, vec3 object, vec3 miss) {
   const vec3 x = missOf(object, b.position + b.positionSlopes[0], b.normal + b.normalSlopes[0]) - miss;
   const vec3 y = missOf(object, b.position + b.positionSlopes[1], b.normal + b.normalSlopes[1]) - miss;
   // Least squares: the three components have two degrees of freedom.
@@ -241,7 +265,7 @@ struct ReflectionMotion {
   float history;  // Longest, frames.
   float miss;     // Over the half angle that it is compared with.
   bool image;     // The mirror image is followed.
-  ReflectedSamples samples;  // Only where a mirror image is a candidate.
+  ReflectedSamples samples;  // Only with BLOCKS, or where a mirror image is a candidate.
 };
 
 ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
@@ -252,8 +276,8 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
                                       mat3(frame.previousViewFromView) * own.normal, own.roughness);
   ReflectionMotion result =
       ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, -1.0));
+  if (kBlocks || own.roughness < constants.surfaceFrom) result.samples = samplesAround(p, own);
   if (own.roughness < constants.surfaceFrom) {
-    result.samples = samplesAround(p, own);
     const float inverseDistance = -result.samples.nearest / own.position.z;
     const vec3 mirrored = reflect(normalize(own.position), own.normal);
     const vec3 object = own.position + mirrored / max(inverseDistance, -1.0 / (kFarthestImage * own.position.z));
@@ -268,7 +292,7 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
     const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
     // Still mirrors need one step. Moving ones need more, and as long as the miss shortens history, they take them.
     for (int i = 0; i < kMostNewtonSteps && own.roughness <= kNewtonUpTo && there.whole; ++i) {
-      const vec2 nearer = image.position + newtonStep(there, objectBefore) * frame.pixelFromPreviousPixel;
+      const vec2 nearer = image.position + newtonStep(there, objectBefore, image.missed) * frame.pixelFromPreviousPixel;
       there = surfaceBefore(tapsAt(nearer), surface, r.valid);
       const Candidate stepped = candidateFrom(nearer, there, objectBefore);
       if (!(stepped.miss < image.miss)) break;
@@ -291,12 +315,10 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
 #ifdef BLOCKS
 // Depth of a pixel over the distance of what it reflects, by this frame's samples; below 0 without any. A rough surface
 // reflects many things, and the pixel's own sample shows one of them by chance.
-float nearnessAt(ivec2 p, Reflector own, ReflectionMotion m) {
-  if (own.roughness <= kSharpUpTo) {
-    const float distance = texelFetch(lighting, p, 0).a;
-    return distance > 0.0 ? nearnessOf(distance, -own.position.z) : -1.0;
-  }
-  return own.roughness < constants.surfaceFrom ? m.samples.nearness : samplesAround(p, own).nearness;
+float nearnessAt(Reflector own, ReflectionMotion m) {
+  const float distance = tileNormals[inTile(ivec2(0))].w;
+  const float sharp = distance > 0.0 ? nearnessOf(distance, -own.position.z) : -1.0;
+  return own.roughness <= kSharpUpTo ? sharp : m.samples.nearness;
 }
 
 // The mean over time of what samples tell of the distance of what a pixel reflects.
@@ -304,12 +326,11 @@ ReflectedDistance meanDistance(ivec2 p, Reflector own, ReflectionMotion m) {
   HistoryTaps taps = tapsAround(p, m.motion, frame.previousPixelFromPixel);
   taps.accepted = m.taps;
   const vec4 weights = tapWeights(taps);
-  const ivec2 last = textureSize(previousReflector, 0) - 1;
+  const uvec4 texels = textureGather(previousReflector, sharedCorner(taps, frame.previousTexel), 1).wzxy;
   ReflectedDistance mean = ReflectedDistance(0.0, 0.0);
   float known = 0.0;
   [[unroll]] for (int i = 0; i < 4; ++i) {
-    const ivec2 q = clamp(historyTap(taps, i), ivec2(0), last);
-    const ReflectedDistance tap = distanceOf(texelFetch(previousReflector, q, 0).xy);
+    const ReflectedDistance tap = distanceOf(uvec2(0u, texels[i]));
     const float weight = tap.frames > 0.0 ? weights[i] : 0.0;
     mean.inverse += weight * tap.inverse;
     mean.frames += weight * tap.frames;
@@ -318,7 +339,7 @@ ReflectedDistance meanDistance(ivec2 p, Reflector own, ReflectionMotion m) {
   const float scale = known > kLeastTapWeight ? 1.0 / known : 0.0;
   mean.inverse *= scale;
   mean.frames = min(scale * mean.frames, m.history);
-  const float inverse = nearnessAt(p, own, m);
+  const float inverse = nearnessAt(own, m);
   if (inverse < 0.0) return mean;
   mean.frames = min(mean.frames + 1.0, constants.maxHistory);
   mean.inverse += (inverse - mean.inverse) / mean.frames;
@@ -338,11 +359,14 @@ vec3 viewOf(ivec2 p, Reflector own) {
 #endif
 
 void main() {
+  fillTile();
+  barrier();
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
-  const float z = depthAt(p);
+  const Reflector own = reflectorAt(p);
+  const float z = -own.position.z;
 #ifdef VIEW
-  imageStore(outView, p, vec4(z > 0.0 ? viewOf(p, reflectorAt(p, z)) : vec3(0.0), 1.0));
+  imageStore(outView, p, vec4(z > 0.0 ? viewOf(p, own) : vec3(0.0), 1.0));
 #else
   if (z == 0.0) {
     imageStore(outTaps, p, uvec4(kNoSurfaceTaps));
@@ -353,7 +377,6 @@ void main() {
 #endif
     return;
   }
-  const Reflector own = reflectorAt(p, z);
   const ReflectionMotion m = reflectionMotionAt(p, own);
   imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
   imageStore(outConfidence, p, vec4(m.history / constants.maxHistory));
