@@ -106,7 +106,8 @@ Guides writeGuides(StageGraph graph, fg::PassBuilder& pass, fg::Extent extent, c
   const char* const name = occlusion ? "guides.features" : "guides.shading normal";
   (occlusion ? guides.features : guides.shadingNormal) = pass.store("outFeatures", graph.texture(name, word));
   if (!geometricNormalIsApart(needs)) return guides;
-  const GuideTexture geometricNormal = guideTexture(graph, "guides.geometric normal", word, needs.history);
+  const GuideTexture geometricNormal =
+      guideTexture(graph, "guides.geometric normal", word, needs.history && needs.normalHistory);
   guides.geometricNormal = pass.store("outGeometricNormal", geometricNormal.current);
   guides.previousGeometricNormal = geometricNormal.previous;
   return guides;

@@ -61,7 +61,8 @@ struct Guides {
 /// The guides that later stages read; others are not made.
 struct GuideNeeds {
   bool geometricNormal = true;
-  bool history = true;  ///< Last frame's depth, and geometric normal where there is one.
+  bool history = true;        ///< Last frame's depth, and geometric normal where there is one.
+  bool normalHistory = true;  ///< If not, `history` leaves out a geometric normal that is apart.
   std::optional<AmbientOcclusionSettings> occlusion = {};  ///< If set, `Guides::features` is made.
 
   friend bool operator==(const GuideNeeds&, const GuideNeeds&) = default;

@@ -37,7 +37,9 @@ fg::Texture addSvgf(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   if (specular && settings.spatialOnly) {
     throw std::invalid_argument("setting spatial-only is for diffuse light: specular light is accumulated first");
   }
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.history = !settings.spatialOnly});
+  const Guides guides =
+      addPrepareGuides(graph, inputs, settings.guides,
+                       {.history = !settings.spatialOnly, .normalHistory = !inputs.conventions.specular});
   if (settings.spatialOnly) return addSpatialSvgf(graph, inputs, guides, output, settings);
 
   const fg::TextureDesc colourDesc{VK_FORMAT_R16G16B16A16_SFLOAT, graph->textureDesc(inputs.lighting).extent};

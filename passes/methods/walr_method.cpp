@@ -51,7 +51,7 @@ GuideNeeds needsOf(const WalrSettings& settings, const TemporalPlan& plan) {
 /// Guides and accumulated light of specular light.
 GuidedInput addReflectedLight(StageGraph graph, const DenoiserInputs& inputs, const WalrSettings& settings,
                               const TemporalPlan& plan) {
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides);
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.normalHistory = false});
   const ReflectionMotion motion = addReflectionMotion(graph, inputs, guides, settings.accumulation, {}, true);
   return {motion.blocks, addAccumulation(graph, inputs, guides, plan, motion)};
 }

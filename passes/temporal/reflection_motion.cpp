@@ -51,8 +51,9 @@ ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inp
         .constants(ReflectionMotionConstants{settings.thresholds.planeTolerance, settings.thresholds.normalThreshold,
                                              settings.maxHistory, reflection.surfaceFrom, reflection.historyPerLobe})
         .dispatch(extent);
-    readReprojection(pass, inputs, guides,
-                     reprojectionOf(inputs.scene, false, settings.rejection, settings.dilateMotion), standIns);
+    ReprojectionSettings reprojection = reprojectionOf(inputs.scene, false, settings.rejection, settings.dilateMotion);
+    reprojection.testsNormals = false;
+    readReprojection(pass, inputs, guides, reprojection, standIns);
     readConfidence(pass, inputs.confidence, inputs, standIns);
     return pass;
   };

@@ -38,7 +38,7 @@ struct ReflectionMotion {
 
 /// Find the motion of specular light (passes/LEARNT.md, "Reflections"): that of the mirror image, or that of the
 /// surface, whichever ray of the previous frame comes closer to what is reflected.
-/// @param guides   with the geometric normal apart and with history
+/// @param guides   with the geometric normal apart and with the history of depth
 /// @param settings of the accumulation that takes the result
 /// @param blocks   also make `ReflectionMotion::blocks`
 /// @throws std::invalid_argument if these settings do not test history by plane, or if objects move and the depth of

@@ -26,10 +26,12 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
                 standIns.colour)
       .sampleIf(byPlane || byDepth, "previousDepth", guides.previousDepth, standIns.number);
   if (settings.preparesGuides) return;
-  pass.specialize("kDilateMotion", settings.dilateMotion)
-      .specialize("kNormalBesideDepth", normalBesideDepth)
-      .sampleIf(readsNormals, "previousGeometricNormal", guides.previousGeometricNormal, standIns.number)
-      .sampleIf(readsNormals, "geometricNormal", guides.geometricNormal, standIns.number);
+  pass.specialize("kDilateMotion", settings.dilateMotion).specialize("kNormalBesideDepth", normalBesideDepth);
+  if (settings.testsNormals) {
+    pass.sampleIf(readsNormals && guides.previousGeometricNormal.valid(), "previousGeometricNormal",
+                  guides.previousGeometricNormal, standIns.number);
+  }
+  pass.sampleIf(readsNormals, "geometricNormal", guides.geometricNormal, standIns.number);
 }
 
 void readConfidence(fg::PassBuilder& pass, fg::Texture confidence, const DenoiserInputs& inputs,

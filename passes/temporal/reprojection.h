@@ -24,6 +24,7 @@ struct ReprojectionSettings {
   bool dilateMotion = false;  ///< Follow the nearest surface of the 3x3 neighbourhood (Meunier & Harada 2022, 4.2).
   /// The pass prepares the guides of its frame itself (GUIDES in reprojection.glsl), and does not dilate motion.
   bool preparesGuides = false;
+  bool testsNormals = true;  ///< The shader calls `historyTaps`, which may test geometric normals.
 };
 
 /// The reprojection for a scene.

@@ -53,6 +53,7 @@ TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStag
   plan.sharesTaps = plan.antialiases && (givenMotion || sharesReprojection(plan.antialiasing, plan.accumulation));
   plan.keepsTaps = plan.sharesTaps || stages.keepTaps;
   plan.guides = guidesOf(plan);
+  plan.guides.normalHistory = !givenMotion;
   return plan;
 }
 

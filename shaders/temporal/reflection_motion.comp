@@ -25,7 +25,7 @@ uniform utexture2D depth;
 uniform utexture2D geometricNormal;
 uniform utexture2D shadingNormal;
 uniform usampler2D previousDepth;
-uniform usampler2D previousGeometricNormal;
+uniform usampler2D previousGeometricNormal;  // Of `historyTaps`, which is not called.
 uniform usampler2D previousReflector;
 #ifdef VIEW
 layout(rgba32f) uniform writeonly image2D outView;
@@ -191,7 +191,6 @@ Before surfaceBefore(HistoryTaps taps, Reflector surface, bool valid) {
   const bvec4 inside = tapsInside(taps, textureSize(previousReflector, 0));
   const vec2 corner = sharedCorner(taps, frame.previousTexel);
   const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
-  const uvec4 planes = gatherTaps(previousGeometricNormal, corner);
   const uvec4 words[2] = {gatherTaps(previousReflector, corner), textureGather(previousReflector, corner, 1).wzxy};
   vec3 positions[4], normals[4];
   Before b;
@@ -201,7 +200,7 @@ Before surfaceBefore(HistoryTaps taps, Reflector surface, bool valid) {
     normals[i] = unpackLongNormal(words[0][i]);
     const float rougher = roughnessOf(uvec2(words[0][i], words[1][i])) - surface.roughness;
     b.accepted[i] = valid && inside[i] && depths[i] > 0.0 && abs(rougher) <= kRoughnessTolerance &&
-                    areOnOneSurface(surface.position, surface.plane, positions[i], unpackLongNormal(planes[i]));
+                    areOnOneSurface(surface.position, surface.plane, positions[i], normals[i]);
   }
   taps.accepted = b.accepted;
   const vec4 weights = tapWeights(taps);
@@ -271,9 +270,10 @@ struct ReflectionMotion {
 ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   const Reprojection r = reproject(p, -own.position.z);
   const vec2 surfaceAt = pixelCentre(p) + r.motion + frame.jitterDelta;
-  const Reflector surface = Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth,
-                                      mat3(frame.previousViewFromView) * own.plane,
-                                      mat3(frame.previousViewFromView) * own.normal, own.roughness);
+  // Of the previous frame's normals only those for shading are kept. They stand for the plane, too.
+  const vec3 normal = mat3(frame.previousViewFromView) * own.normal;
+  const Reflector surface =
+      Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth, normal, normal, own.roughness);
   ReflectionMotion result =
       ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, -1.0));
   if (kBlocks || own.roughness < constants.surfaceFrom) result.samples = samplesAround(p, own);

@@ -171,8 +171,9 @@ std::optional<Mirror> Search::shownAt(glm::dvec2 position, const Mirror& surface
     const glm::ivec2 q = glm::ivec2(base) + glm::ivec2(i % 2, i / 2);
     if (!previous_.guides.contains(q) || previous_.guides[q].depth == 0.0) continue;
     const Guide& guide = previous_.guides[q];
-    const Mirror tap{rayThrough(frame_.constants.previousRayFromPixel, pixelCentre(q)) * guide.depth, guide.normal,
-                     octahedralDecode(guide.features), previous_.roughness[q]};
+    const glm::dvec3 normal = octahedralDecode(guide.features);
+    const Mirror tap{rayThrough(frame_.constants.previousRayFromPixel, pixelCentre(q)) * guide.depth, normal, normal,
+                     previous_.roughness[q]};
     if (!oneSurface(surface, tap) || std::abs(tap.roughness - surface.roughness) > 0.1) continue;
     const double weight = (i % 2 == 1 ? f.x : 1.0 - f.x) * (i / 2 == 1 ? f.y : 1.0 - f.y);
     sum.position += weight * tap.position;
@@ -201,7 +202,8 @@ Reflected Search::find() {
 
   const glm::dvec2 jitter(frame_.constants.jitterDelta);
   const glm::dvec2 surfaceAt = r.pixel + jitter;
-  const Mirror surface{r.position, r.normal, turned(own.normal), own.roughness};
+  // History is tested by shading normals.
+  const Mirror surface{r.position, turned(own.normal), turned(own.normal), own.roughness};
   const double distance = nearestDistance(own);
   const glm::dvec3 object = before(own.position + distance * glm::reflect(glm::normalize(own.position), own.normal));
   bool whole = false;
