@@ -24,7 +24,7 @@ struct ShaderFigures {
 
 /// Estimated costs of a method at its default settings on one machine.
 struct MethodEstimate {
-  std::string variant;  ///< As `allMethods` of the benchmark names it.
+  std::string variant;  ///< As `allMethods` of the benchmark names it, and "specular" or "both" for these lights.
   std::optional<double> cyclesPerPixel;
   double megabytes = 0.0;
   std::optional<double> microseconds;

@@ -10,10 +10,11 @@
 namespace walr::costs {
 namespace {
 
-/// The name of a method in the benchmark's reports: that of its first preset is left out.
-std::string variantName(const MethodName& name) {
+/// The name of a method in the benchmark's reports, where that of its first preset is left out, and its lights.
+std::string variantName(MethodName name) {
   const std::vector<std::string> presets = makeDenoiser(name.method)->presets();
-  return presets.empty() || name.preset == presets.front() ? name.method : name.text();
+  if (!presets.empty() && name.preset == presets.front()) name.preset.clear();
+  return name.text();
 }
 
 MethodEstimate estimateOf(const MethodCosts& method, const Machine& machine) {

@@ -40,13 +40,15 @@ std::vector<MethodName> methodsNamed(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string method = text.substr(0, colon);
   const auto denoiser = makeDenoiser(method);
+  std::vector<std::string> presets = denoiser->presets();
   if (colon != std::string::npos) {
-    denoiser->usePreset(text.substr(colon + 1));
-    return {{method, text.substr(colon + 1)}};
+    presets = {text.substr(colon + 1)};
+    denoiser->usePreset(presets.front());
   }
+  if (presets.empty()) presets.emplace_back();
   std::vector<MethodName> names;
-  for (const std::string& preset : denoiser->presets()) names.push_back({method, preset});
-  if (names.empty()) names.push_back({method, ""});
+  for (const std::string& preset : presets)
+    for (const test::LightSet& lights : test::lightSetsOf(*denoiser)) names.push_back({method, preset, lights});
   return names;
 }
 
@@ -91,7 +93,8 @@ std::optional<double> MethodCosts::microseconds(const Machine& machine) const {
 MethodCosts methodCosts(const MethodName& name, fg::Extent extent, NullDevice& device, const TripCounts& trips) {
   const auto method = makeDenoiser(name.method);
   if (!name.preset.empty()) method->usePreset(name.preset);
-  const DenoiseGraph declared = declareDenoiseGraph(*method, extent, InputConventions{}, kComputeHost);
+  const DenoiseGraph declared =
+      declareDenoiseGraph(name.lights.denoisedBy(*method), extent, InputConventions{}, kComputeHost);
   const fg::GraphDesc& graph = declared.graph.desc();
   const fg::CompileResult result = fg::compile(graph, fg::TableMemoryModel());
   if (!result.ok())

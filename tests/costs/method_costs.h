@@ -10,22 +10,26 @@
 #include "tests/costs/listing.h"
 #include "tests/costs/null_device.h"
 #include "tests/costs/trip_counts.h"
+#include "tests/light_sets.h"
 
 namespace walr::costs {
 
-/// A method with one of its presets.
+/// A method with one of its presets, and the lights that it denoises in one graph.
 struct MethodName {
   std::string method;
   std::string preset;  ///< Empty if the method has none.
+  test::LightSet lights = {};
 
-  /// "walr_paper:robust", "flr".
-  [[nodiscard]] std::string text() const { return preset.empty() ? method : method + ":" + preset; }
+  /// "walr_paper:robust", "flr", "walr:standard both lights".
+  [[nodiscard]] std::string text() const {
+    return (preset.empty() ? method : method + ":" + preset) + lights.suffix(' ');
+  }
 };
 
-/// All methods, each with all its presets.
+/// All methods, each with all its presets and lights.
 std::vector<MethodName> allMethods();
 
-/// "METHOD", which stands for all its presets, or "METHOD:PRESET".
+/// "METHOD", which stands for all its presets, or "METHOD:PRESET"; each with all lights.
 /// @throws std::invalid_argument naming the unknown method or preset and the known ones
 std::vector<MethodName> methodsNamed(const std::string& text);
 
