@@ -5,8 +5,8 @@
 // The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
 // history (confidence.glsl).
 // Needs the geometric normal in a texture of its own. Tests history by plane.
-// BLOCKS: also writes what the regression over blocks reads: a depth with the geometric normal, and in the reflector the
-// mean distance of what is reflected.
+// BLOCKS: also writes what the regression over blocks reads: a depth with the geometric normal, and in the reflector of
+// every pixel the mean distance of what is reflected, which else only mirrors have.
 // VIEW: does the same work and writes its intermediate values.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -64,6 +64,9 @@ const float kLongestNewtonStep = 8.0;     // Pixels.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
 const float kMostNormalChange = 0.5;      // Between pixels that tell the curvature.
 const int kCurvatureStep = 2;             // Pixels.
+const float kMirrorUpTo = 0.05;           // Roughness up to which history must have the distance of what is reflected.
+const float kDistanceTolerance = 1.25;    // Largest ratio of two distances of one thing.
+const float kLeastNearness = 1e-3;        // Depth over distance; what is farther is at one distance.
 const float kNoHistory = 4.0;             // A miss larger than that of any two directions.
 
 // A reflecting surface at a pixel, in the view space of its frame.
@@ -119,11 +122,12 @@ bool showsSurface(ivec2 p, ivec2 offset, Reflector own, out vec3 position) {
 // Depth of a pixel over the distances that the samples of the 3 x 3 pixels on the same surface have.
 struct ReflectedSamples {
   float nearest;   // The largest. 0 without samples: what is reflected counts as far away.
+  float farthest;  // The smallest, if there are samples.
   float nearness;  // The mean; below 0 without samples.
 };
 
 ReflectedSamples samplesAround(ivec2 p, Reflector own) {
-  float nearest = 0.0, sum = 0.0, count = 0.0;
+  float nearest = 0.0, farthest = kLargestHalf, sum = 0.0, count = 0.0;
   vec3 position;
   for (int i = 0; i < 9; ++i) {
     const ivec2 offset = ivec2(i % 3, i / 3) - 1;
@@ -132,10 +136,11 @@ ReflectedSamples samplesAround(ivec2 p, Reflector own) {
     if (!(distance > 0.0)) continue;
     const float nearness = nearnessOf(distance, -own.position.z);
     nearest = max(nearest, nearness);
+    farthest = min(farthest, nearness);
     sum += nearness;
     count += 1.0;
   }
-  return ReflectedSamples(nearest, count > 0.0 ? sum / count : -1.0);
+  return ReflectedSamples(nearest, farthest, count > 0.0 ? sum / count : -1.0);
 }
 
 // In units of the depth of the pixel.
@@ -174,6 +179,29 @@ vec2 imageOffset(ivec2 p, Reflector own, float inverseDistance) {
   return within + dot(across - within, t) * t;
 }
 
+// What a pixel of the previous frame must show to be history.
+struct Sought {
+  Reflector surface;  // Where it was.
+  bool valid;         // That is known.
+  vec2 inverses;      // Smallest and largest one over the distance of what it reflects.
+};
+
+const vec2 kAnyInverses = vec2(-1.0, 1e30);
+
+// The light of a mirror is that of what it shows: where another thing came into view, or went, there is no history.
+vec2 soughtInverses(Reflector own, ReflectedSamples samples) {
+  if (own.roughness > kMirrorUpTo || samples.nearness < 0.0) return kAnyInverses;
+  return vec2(samples.farthest / kDistanceTolerance - kLeastNearness,
+              samples.nearest * kDistanceTolerance + kLeastNearness) /
+         -own.position.z;
+}
+
+// Of a pixel of the previous frame at the depth z.
+bool isSought(ReflectedDistance distance, float z, vec2 inverses) {
+  const float inverse = distance.inverse / z;
+  return distance.frames == 0.0 || (inverse >= inverses.x && inverse <= inverses.y);
+}
+
 // What the previous frame shows at a position: the mean of those of its pixels there that show the same surface.
 struct Before {
   vec3 position;
@@ -186,8 +214,8 @@ struct Before {
   bool whole;  // All four pixels show the surface.
 };
 
-// `surface`: where the surface itself was. `valid`: whether that is known.
-Before surfaceBefore(HistoryTaps taps, Reflector surface, bool valid) {
+Before surfaceBefore(HistoryTaps taps, Sought sought) {
+  const Reflector surface = sought.surface;
   const bvec4 inside = tapsInside(taps, textureSize(previousReflector, 0));
   const vec2 corner = sharedCorner(taps, frame.previousTexel);
   const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
@@ -196,10 +224,12 @@ Before surfaceBefore(HistoryTaps taps, Reflector surface, bool valid) {
   Before b;
   [[unroll]] for (int i = 0; i < 4; ++i) {
     const vec2 q = vec2(historyTap(taps, i)) + 0.5;
+    const uvec2 reflector = uvec2(words[0][i], words[1][i]);
     positions[i] = rayThrough(frame.previousRayFromPixel, q * frame.pixelFromPreviousPixel) * depths[i];
-    normals[i] = unpackLongNormal(words[0][i]);
-    const float rougher = roughnessOf(uvec2(words[0][i], words[1][i])) - surface.roughness;
-    b.accepted[i] = valid && inside[i] && depths[i] > 0.0 && abs(rougher) <= kRoughnessTolerance &&
+    normals[i] = unpackLongNormal(reflector.x);
+    const float rougher = roughnessOf(reflector) - surface.roughness;
+    b.accepted[i] = sought.valid && inside[i] && depths[i] > 0.0 && abs(rougher) <= kRoughnessTolerance &&
+                    isSought(distanceOf(reflector), depths[i], sought.inverses) &&
                     areOnOneSurface(surface.position, surface.plane, positions[i], normals[i]);
   }
   taps.accepted = b.accepted;
@@ -274,26 +304,28 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   const vec3 normal = mat3(frame.previousViewFromView) * own.normal;
   const Reflector surface =
       Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth, normal, normal, own.roughness);
+  Sought sought = Sought(surface, r.valid, kAnyInverses);
   ReflectionMotion result =
-      ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, -1.0));
+      ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, 0.0, -1.0));
   if (kBlocks || own.roughness < constants.surfaceFrom) result.samples = samplesAround(p, own);
   if (own.roughness < constants.surfaceFrom) {
+    sought.inverses = soughtInverses(own, result.samples);
     const float inverseDistance = -result.samples.nearest / own.position.z;
     const vec3 mirrored = reflect(normalize(own.position), own.normal);
     const vec3 object = own.position + mirrored / max(inverseDistance, -1.0 / (kFarthestImage * own.position.z));
     const vec3 objectBefore = previousPosition(frame.previousViewFromView, object);
-    Candidate best = candidateFrom(surfaceAt, surfaceBefore(tapsAt(surfaceAt), surface, r.valid), objectBefore);
+    Candidate best = candidateFrom(surfaceAt, surfaceBefore(tapsAt(surfaceAt), sought), objectBefore);
 
     // Objects that move carry their images along.
     const vec2 imageAt = surfaceAt + imageOffset(p, own, inverseDistance);
-    Before there = surfaceBefore(tapsAt(imageAt), surface, r.valid);
+    Before there = surfaceBefore(tapsAt(imageAt), sought);
     Candidate image = candidateFrom(imageAt, there, objectBefore);
     // No picture tells angles below half a pixel apart.
     const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
     // Still mirrors need one step. Moving ones need more, and as long as the miss shortens history, they take them.
     for (int i = 0; i < kMostNewtonSteps && own.roughness <= kNewtonUpTo && there.whole; ++i) {
       const vec2 nearer = image.position + newtonStep(there, objectBefore, image.missed) * frame.pixelFromPreviousPixel;
-      there = surfaceBefore(tapsAt(nearer), surface, r.valid);
+      there = surfaceBefore(tapsAt(nearer), sought);
       const Candidate stepped = candidateFrom(nearer, there, objectBefore);
       if (!(stepped.miss < image.miss)) break;
       image = stepped;
@@ -308,11 +340,10 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
     result.history = min(constants.historyPerLobe / max(result.miss, 1e-6), constants.maxHistory);
   }
   result.history = confidentLength(p, result.history, constants.maxHistory);
-  result.taps = surfaceBefore(tapsAround(p, result.motion, frame.previousPixelFromPixel), surface, r.valid).accepted;
+  result.taps = surfaceBefore(tapsAround(p, result.motion, frame.previousPixelFromPixel), sought).accepted;
   return result;
 }
 
-#ifdef BLOCKS
 // Depth of a pixel over the distance of what it reflects, by this frame's samples; below 0 without any. A rough surface
 // reflects many things, and the pixel's own sample shows one of them by chance.
 float nearnessAt(Reflector own, ReflectionMotion m) {
@@ -345,7 +376,6 @@ ReflectedDistance meanDistance(ivec2 p, Reflector own, ReflectionMotion m) {
   mean.inverse += (inverse - mean.inverse) / mean.frames;
   return mean;
 }
-#endif
 
 #ifdef VIEW
 vec3 viewOf(ivec2 p, Reflector own) {
@@ -381,11 +411,10 @@ void main() {
   imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
   imageStore(outConfidence, p, vec4(m.history / constants.maxHistory));
 #ifdef BLOCKS
-  const ReflectedDistance distance = meanDistance(p, own, m);
   imageStore(outDepth, p, uvec4(packDepthNormal(z, packShortNormal(own.plane))));
-#else
-  const ReflectedDistance distance = ReflectedDistance(0.0, 0.0);
 #endif
+  ReflectedDistance distance = ReflectedDistance(0.0, 0.0);
+  if (kBlocks || own.roughness <= kMirrorUpTo) distance = meanDistance(p, own, m);
   imageStore(outReflector, p, uvec4(packReflector(texelFetch(shadingNormal, p, 0).x, own.roughness, distance), 0u, 0u));
 #endif
 }

@@ -23,6 +23,7 @@ constexpr double kFarthest = 3000.0;
 constexpr double kClose = 1e-3;
 /// The same of misses, which hold the rounding of kept motion.
 constexpr double kCloseMiss = 0.01;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool close(double value, double threshold, double share = kClose) {
   return std::abs(value - threshold) <= share * std::abs(threshold);
@@ -34,6 +35,12 @@ struct Mirror {
   glm::dvec3 plane{0.0};
   glm::dvec3 normal{0.0};
   double roughness = 0.0;
+};
+
+/// Distances from the shortest to the longest.
+struct Distances {
+  double nearest = kInfinity;
+  double farthest = 0.0;
 };
 
 /// The stage at one pixel.
@@ -74,7 +81,9 @@ class Search {
     const Mirror found = mirrorAt(q);
     return oneSurface(own, found) ? std::optional(found) : std::nullopt;
   }
-  double nearestDistance(const Mirror& own);
+  Distances distancesAround(const Mirror& own);
+  /// Whether a pixel of the previous frame shows what a mirror shows now.
+  bool showsTheSame(glm::ivec2 q, double roughness);
   glm::dmat2 shape(const Mirror& own, glm::dvec3 within, glm::dvec3 across);
   glm::dvec2 imageMotion(const Mirror& own, double distance);
   /// The mean of what the previous frame shows at a position; `whole`: all four pixels count.
@@ -91,19 +100,34 @@ class Search {
   const TemporalAccumulationSettings& settings_;
   const ReflectionMotionSettings& reflection_;
   glm::ivec2 p_;
+  Distances distances_;  ///< Of the samples around.
   Reflected result_;
 };
 
-double Search::nearestDistance(const Mirror& own) {
-  double nearest = kFarthest * -own.position.z;
+Distances Search::distancesAround(const Mirror& own) {
+  Distances found;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       if (!neighbour(own, {x, y})) continue;
       const double d = frame_.lightAlpha[p_ + glm::ivec2(x, y)];
-      if (d > 0.0 && d < kLargestHalf) nearest = std::min(nearest, std::max(d, -1e-3 * own.position.z));
+      if (!(d > 0.0)) continue;
+      const double known = d < kLargestHalf ? std::max(d, -1e-3 * own.position.z) : kInfinity;
+      found = {std::min(found.nearest, known), std::max(found.farthest, known)};
     }
   }
-  return nearest;
+  return found;
+}
+
+bool Search::showsTheSame(glm::ivec2 q, double roughness) {
+  const double distance = previous_.distances[q];
+  if (roughness > 0.05 || distances_.farthest == 0.0 || distance == 0.0) return true;
+  // What is farther than 1,000 times the depth is at one distance.
+  const double inverse = 1.0 / distance;
+  const double least = 1e-3 / guides_[p_].depth;
+  const double lowest = 1.0 / (1.25 * distances_.farthest) - least;
+  const double highest = 1.25 / distances_.nearest + least;
+  result_.undecided |= close(inverse, lowest) || close(inverse, highest);
+  return inverse >= lowest && inverse <= highest;
 }
 
 /// The shape operator in the basis of two tangents, with lengths in units of depth.
@@ -175,6 +199,7 @@ std::optional<Mirror> Search::shownAt(glm::dvec2 position, const Mirror& surface
     const Mirror tap{rayThrough(frame_.constants.previousRayFromPixel, pixelCentre(q)) * guide.depth, normal, normal,
                      previous_.roughness[q]};
     if (!oneSurface(surface, tap) || std::abs(tap.roughness - surface.roughness) > 0.1) continue;
+    if (!showsTheSame(q, surface.roughness)) continue;
     const double weight = (i % 2 == 1 ? f.x : 1.0 - f.x) * (i / 2 == 1 ? f.y : 1.0 - f.y);
     sum.position += weight * tap.position;
     sum.normal += weight * tap.normal;
@@ -183,9 +208,10 @@ std::optional<Mirror> Search::shownAt(glm::dvec2 position, const Mirror& surface
   }
   result_.undecided |= weights < 0.02 && weights > 0.005;
   whole = accepted == 4;
-  // Next to a pixel's centre, rounding may decide which pixels are the four; that matters only where some are rejected.
+  // Next to a pixel's centre, rounding may decide which pixels are the four; that matters where it rejects a part of
+  // them.
   const glm::dvec2 toCentre = glm::min(at - base, 1.0 - at + base);
-  result_.undecided |= !whole && std::min(toCentre.x, toCentre.y) < 0.02;
+  result_.undecided |= !whole && accepted > 0 && std::min(toCentre.x, toCentre.y) < 0.02;
   if (weights <= 0.01) return std::nullopt;
   sum.position /= weights;
   sum.normal /= weights;
@@ -204,12 +230,13 @@ Reflected Search::find() {
   const glm::dvec2 surfaceAt = r.pixel + jitter;
   // History is tested by shading normals.
   const Mirror surface{r.position, turned(own.normal), turned(own.normal), own.roughness};
-  const double distance = nearestDistance(own);
+  distances_ = distancesAround(own);
+  const double distance = std::min(distances_.nearest, kFarthest * -own.position.z);
   const glm::dvec3 object = before(own.position + distance * glm::reflect(glm::normalize(own.position), own.normal));
   bool whole = false;
   const auto missAt = [&](glm::dvec2 position) {
     const auto there = shownAt(position, surface, whole);
-    return there ? glm::length(miss(*there, object)) : std::numeric_limits<double>::infinity();
+    return there ? glm::length(miss(*there, object)) : kInfinity;
   };
   double best = missAt(surfaceAt);
 

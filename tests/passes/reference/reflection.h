@@ -18,6 +18,7 @@ struct Reflected {
 struct ReflectorHistory {
   Image<Guide> guides;  ///< Empty while there is no history.
   Image<double> roughness;
+  Image<double> distances;  ///< Of what mirrors reflect; 0 where unknown.
 };
 
 /// @param guides  as a device prepares them, with features of 16 bits
