@@ -433,6 +433,8 @@ TEST_F(ReflectionMotionTest, HardCasesAreFinite) {
         reference::forEachPixel(kSize, [&](glm::ivec2 p) {
           for (const glm::dvec3& v : {glm::dvec3(output[p]), motion[p], history[p]})
             EXPECT_TRUE(reference::isFinite(v)) << p.x << " " << p.y;
+          const bool lit = frame.lightAlpha[p] > 0.0 && frame.depth[p] < 1e9;
+          EXPECT_TRUE(!lit || output[p].g > 0.0) << p.x << " " << p.y;
         });
       }
     }
