@@ -148,16 +148,15 @@ struct Shown {
 const int kGroupThreads = kGroupSize * kGroupSize;
 // First the residuals, three values of each thread; later what is summed, four of each.
 shared vec4 groupValues[4 * kGroupThreads];
-const int kGroupResiduals = 0;                  // rgb: mean; a: noisy.
-const int kGroupNormals = kGroupThreads;        // rgb: 0 without a surface; a: samples, or kNoPixel.
-const int kGroupPositions = 2 * kGroupThreads;  // rgb: position; a: history.
-const float kNoPixel = 1e30;                    // More samples than any pixel has.
+const int kGroupResiduals = 0;               // rgb: mean; a: noisy.
+const int kGroupNormals = kGroupThreads;     // rgb: 0 without a surface; a: samples.
+const int kGroupDepths = 2 * kGroupThreads;  // r: depth; g: history.
 
-void shareResidual(bool hasPixel, Shown shown, Residual residual) {
+void shareResidual(Shown shown, Residual residual) {
   const int thread = int(gl_LocalInvocationIndex);
   groupValues[kGroupResiduals + thread] = vec4(residual.mean, residual.noisy);
-  groupValues[kGroupNormals + thread] = vec4(shown.normal, hasPixel ? residual.samples : kNoPixel);
-  groupValues[kGroupPositions + thread] = vec4(shown.position, residual.history);
+  groupValues[kGroupNormals + thread] = vec4(shown.normal, residual.samples);
+  groupValues[kGroupDepths + thread].xy = vec2(-shown.position.z, residual.history);
   barrier();
 }
 
@@ -184,45 +183,58 @@ mat4 sumsOverGroup(mat4 values) {
 // Tells how far other pixels show the surface of a pixel: the edge-stopping function of the plane through the pixel, and
 // agreement of the shading normals, which ends at an angle of 37 degrees. 0 if there is none.
 struct SameSurface {
-  vec4 plane;   // Distance from the plane, scaled for the edge-stopping function: dot(xyz, position) + w.
+  // Distance from the plane, scaled for the edge-stopping function: depth x product - offset. The product of the normal
+  // and the view ray is linear over the image.
+  float product;  // At the pixel.
+  vec2 slope;     // Of the product, from a pixel to the next along each axis.
+  float offset;
   vec3 facing;  // 5 times the normal.
 };
 
 SameSurface sameSurfaceAs(Shown shown) {
-  const vec3 scaled = shown.normal * (constants.planeScale / -shown.position.z);
-  return SameSurface(vec4(scaled, -dot(scaled, shown.position)), 5.0 * shown.normal);
+  const float perDepth = 1.0 / -shown.position.z;
+  const vec3 scaled = shown.normal * (constants.planeScale * perDepth);
+  const float offset = dot(scaled, shown.position);
+  return SameSurface(offset * perDepth, scaled.xy * frame.rayFromPixel.xy, offset, 5.0 * shown.normal);
 }
 
-float sameSurface(SameSurface s, int thread) {
-  const float distance = abs(dot(s.plane.xyz, groupValues[kGroupPositions + thread].xyz) + s.plane.w);
+// `away`: offset of the pixel of `thread` from the one that `s` belongs to.
+float sameSurface(SameSurface s, ivec2 away, int thread) {
+  const float product = s.product + dot(s.slope, vec2(away));
+  const float distance = abs(groupValues[kGroupDepths + thread].x * product - s.offset);
   return clamp(constants.planeOffset - distance, 0.0, 1.0) *
          clamp(dot(s.facing, groupValues[kGroupNormals + thread].xyz) - 4.0, 0.0, 1.0);
 }
 
 // Mean residual over the 3 x 3 pixels, as far as this workgroup has them. `halves`: leave out pixels without y or h, as
 // statistics need; where a surface has just appeared, most pixels have no h. `edge`: whether one of the pixels shows
-// another surface or none. `quad`: the innovations of those in the quad whose first pixel this is.
-Residual meanAround(SameSurface surface, bool halves, out bool edge, out Quad quad) {
+// another surface or none. `quad`: the innovations of those in the quad whose first pixel is `p`, that of this thread.
+Residual meanAround(ivec2 p, SameSurface surface, bool halves, out bool edge, out Quad quad) {
   const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
+  const bvec2 first = lessThanEqual(min(thread, p), ivec2(0));
+  const bvec2 last = greaterThanEqual(max(thread - kTilePixels, p - textureSize(depth, 0)), ivec2(-1));
+  const bool columns[3] = bool[](!first.x, true, !last.x), rows[3] = bool[](!first.y, true, !last.y);
   const float ofMissing = halves ? 0.0 : -1.0;
   Residual sum = Residual(vec3(0.0), 0.0, 0.0, 0.0);
   float weights = 0.0, least = 1.0;
   quad = Quad(0.0, 0.0, 0.0);
   [[unroll]] for (int i = 0; i < 9; ++i) {
-    const ivec2 t = thread + ivec2(i % 3, i / 3) - 1, inside = clamp(t, ivec2(0), ivec2(kGroupSize - 1));
-    const int q = inside.y * kGroupSize + inside.x;
-    const float same = sameSurface(surface, q);
+    const ivec2 away = ivec2(i % 3, i / 3) - 1;
+    const bool inside = columns[i % 3] && rows[i / 3];
+    const ivec2 t = clamp(thread + away, ivec2(0), ivec2(kGroupSize - 1));
+    const int q = t.y * kGroupSize + t.x;
+    const float same = i == 4 ? 1.0 : sameSurface(surface, away, q);
     const float stored = groupValues[kGroupNormals + q].a, samples = max(stored, ofMissing * stored);
-    least = min(least, stored < kNoPixel ? same : 1.0);  // At the group's border twice of one pixel.
-    const float weight = t == inside ? same * samples : 0.0;
+    least = min(least, inside ? same : 1.0);
+    const float weight = inside ? same * samples : 0.0;
     sum.mean += weight * groupValues[kGroupResiduals + q].rgb;
     sum.noisy += weight * groupValues[kGroupResiduals + q].a;
-    sum.history += weight * groupValues[kGroupPositions + q].a;
+    sum.history += weight * groupValues[kGroupDepths + q].y;
     sum.samples += weight * samples;
     weights += weight;
     if (i % 3 > 0 && i > 3) {
-      const float innovation = groupValues[kGroupResiduals + q].a - groupValues[kGroupPositions + q].a;
-      add(quad, t == inside && stored > 0.0 ? same : 0.0, innovation);
+      const float innovation = groupValues[kGroupResiduals + q].a - groupValues[kGroupDepths + q].y;
+      add(quad, inside && stored > 0.0 ? same : 0.0, innovation);
     }
   }
   edge = least < 0.5;
@@ -234,11 +246,12 @@ Residual meanAround(SameSurface surface, bool halves, out bool edge, out Quad qu
 // before it at the end of the group, and 1; 0 if that shows another surface. It is free of the noise that y and h of
 // one pixel share.
 vec2 farProduct(SameSurface surface, Residual own, int axis) {
-  ivec2 t = ivec2(gl_LocalInvocationID.xy);
-  t[axis] += t[axis] + 2 < kTilePixels ? 2 : -2;
-  const int q = t.y * kGroupSize + t.x;
-  if (sameSurface(surface, q) < 0.5) return vec2(0.0);
-  const float noisy = groupValues[kGroupResiduals + q].a, history = groupValues[kGroupPositions + q].a;
+  const ivec2 thread = ivec2(gl_LocalInvocationID.xy);
+  ivec2 away = ivec2(0);
+  away[axis] = thread[axis] + 2 < kTilePixels ? 2 : -2;
+  const int q = (thread.y + away.y) * kGroupSize + thread.x + away.x;
+  if (sameSurface(surface, away, q) < 0.5) return vec2(0.0);
+  const float noisy = groupValues[kGroupResiduals + q].a, history = groupValues[kGroupDepths + q].y;
   return vec2(0.5 * (own.noisy * history + own.history * noisy), 1.0);
 }
 
@@ -333,7 +346,7 @@ Accumulated accumulatedWithAntilag(FetchedLight fetched, Shown shown) {
 vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, bool steers) {
   const Accumulated accumulated = accumulatedWithAntilag(fetched, shown);
   const Residual own = accumulated.residual;
-  shareResidual(hasPixel, shown, own);
+  shareResidual(shown, own);
 
   vec3 result = shown.predicted;
   Measured measured = Measured(vec2(0.0), vec4(0.0), false, vec2(0.0), vec4(0.0));
@@ -342,7 +355,7 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
     const SameSurface surface = sameSurfaceAs(shown);
     Quad quad;
-    const Residual around = meanAround(surface, own.samples > 0.0, measured.edge, quad);
+    const Residual around = meanAround(p, surface, own.samples > 0.0, measured.edge, quad);
 #ifdef SPECULAR
     measured.edge = isNarrow(ownRoughness);  // In place of an edge.
 #endif
