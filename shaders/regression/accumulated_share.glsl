@@ -7,7 +7,8 @@
 // most.
 // In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
 // pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
-// SPECULAR: narrow lobes stand for edges, and each pixel has a least share (regression/lobe.glsl).
+// SPECULAR: pixels with a narrow lobe count as beside an edge, and each pixel has a least share (regression/lobe.glsl).
+// History is not steered.
 // Most workgroups of light of one sample have no share. They do nothing in most frames (partOfWorkgroup).
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
 // stored_fit.glsl.
@@ -62,7 +63,7 @@ const int kMeasures = 1;  // Adds shares to its pixels, and measures them.
 const int kSteers = 2;    // Measures innovations, too.
 int partOfWorkgroup() {
 #ifdef SPECULAR
-  return kSteers;  // Narrow lobes always have a share.
+  return kMeasures;  // Narrow lobes always have a share, and tiles mix lobes whose histories differ.
 #else
   if (!isAmongQuiet()) return kSteers;
   if (!isMeasuredThoughQuiet(gl_WorkGroupID.xy, frame.frameIndex)) return kNothing;
@@ -357,7 +358,7 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
     Quad quad;
     const Residual around = meanAround(p, surface, own.samples > 0.0, measured.edge, quad);
 #ifdef SPECULAR
-    measured.edge = isNarrow(ownRoughness);  // In place of an edge.
+    measured.edge = measured.edge || isNarrow(ownRoughness);
 #endif
     const Statistics known = previousStatisticsAt(before, measured.edge);
     const vec3 detail = own.mean - around.mean;

@@ -301,7 +301,7 @@ bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 nor
   const float shareIfUsable = shareOfCoarse(fine, coarseTrust(lobe.roughness));
 #ifdef RESIDUAL
   ownRoughness = lobe.roughness;
-  leastShare = max(imageShare(lobe.roughness, abs(frame.rayFromPixel.y)), 1.0 - min(2.0 * known, 1.0));
+  leastShare = max(imageShare(lobe.roughness, abs(frame.rayFromPixel.y)), 1.0 - min(8.0 * known, 1.0));
 #endif
 #else
   const NormalAndOcclusion guides = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);

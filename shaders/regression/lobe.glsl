@@ -35,10 +35,10 @@ Lobe lobeOf(float x[kFeatures]) {
   return Lobe(vec3(x[0], x[1], x[2]), x[kOcclusionFeature], max(image - 1.0, 1.0 / kFarthestReflection));
 }
 
-// Weight of another lobe's light in the window of a lobe. Below a roughness of .2, the window is as wide as the lobe.
+// Weight of another lobe's light in the window of a lobe. The window is as wide as the lobe.
 float sameLobe(Lobe own, Lobe other) {
   const vec3 turned = other.direction - own.direction;
-  const float width = max(min(lobeAngle(own.roughness), 0.4 * own.roughness), 1e-3);
+  const float width = max(lobeAngle(own.roughness), 1e-3);
   const float farther = log(other.distance / own.distance) / 0.4, rougher = (other.roughness - own.roughness) / 0.1;
   return exp(-0.5 * (dot(turned, turned) / (width * width) + farther * farther + rougher * rougher));
 }

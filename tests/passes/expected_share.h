@@ -153,7 +153,7 @@ class ExpectedResult {
     });
     reference::forEachPixel(kSize, [&](glm::ivec2 p) { lookAround(p); });
     if (roughness) {
-      edges_ = Image<int>(kSize, *roughness < 0.25 ? 1 : 0);  // Narrow lobes stand for edges.
+      if (*roughness < 0.25) edges_ = Image<int>(kSize, 1);  // Narrow lobes stand for edges.
       lobeGain_ = std::pow(std::min(0.3 / *roughness, 1.0), 2.0);
       leastShare_ = reference::imageShare(*roughness, std::abs(double(constants_.rayFromPixel.y)));
     }

@@ -117,7 +117,7 @@ double lobeAngle(double roughness) {
 }
 
 double sameLobe(const Lobe& own, const Lobe& other) {
-  const double width = std::max(std::min(lobeAngle(own.roughness), 0.4 * own.roughness), 1e-3);
+  const double width = std::max(lobeAngle(own.roughness), 1e-3);
   const double turned = glm::length(other.direction - own.direction) / width;
   const double farther = std::log(other.distance / own.distance) / 0.4;
   const double rougher = (other.roughness - own.roughness) / 0.1;
@@ -539,7 +539,7 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     if (reflectors == nullptr) return;
     const double known = all > 0.0 ? fineWeight / all : 1.0;
     const double image = imageShare((*reflectors)[p].roughness, std::abs(double(frame.constants.rayFromPixel.y)));
-    result[p] = glm::mix(result[p], glm::dvec3(accumulated[p]), std::max(image, 1.0 - 2.0 * known));
+    result[p] = glm::mix(result[p], glm::dvec3(accumulated[p]), std::max(image, 1.0 - 8.0 * known));
   });
   return result;
 }
