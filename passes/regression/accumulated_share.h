@@ -36,7 +36,7 @@ struct AccumulatedShareSettings {
             gain);
     v.visit({"blocks.innovation-gain",
              "How fast the history length follows the correlation of innovations, the differences of new samples from "
-             "history; 0: not at all",
+             "history; 0: not at all. No effect on specular light",
              "", 0.0, 4.0, "Mehra 1970"},
             innovationGain);
     v.visit(
