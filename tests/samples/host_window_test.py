@@ -252,34 +252,38 @@ def texture(host, screen):
 
 def methods(host, screen):
     """Every method, and every preset of one method, can be chosen and gives the same image as without a window."""
-    with host.window(screen, "0-3") as window:
-        # What is chosen anew starts with the frame at hand; in the box, nothing moves in frames 0 to 3.
-        def expect(what, *options):
-            window.must_show(host.pictures("3-3", *options)[3], what)
+    paper = "walr_paper"
+    names, presets = host.known("--method"), host.known("--preset", "--method", paper)
 
-        names = host.known("--method")
+    # What is chosen anew starts with the frame at hand; in the box, nothing moves in frames 0 to 3. The images are made before the
+    # window opens, which then finds the compiled shaders in Mesa's cache.
+    def picture(*options):
+        return host.pictures("3-3", *options)[3]
+
+    of_method = {name: picture("--method", name) for name in names}
+    of_preset = {name: picture("--method", paper, "--preset", name) for name in presets[1:]}
+    with host.window(screen, "0-3") as window:
         for index, name in [*enumerate(names)][1:] + [(0, names[0])]:
             window.choose_method(index, len(names))
-            expect(f"method {name}", "--method", name)
-        paper = "walr_paper"
+            window.must_show(of_method[name], f"method {name}")
         window.choose_method(names.index(paper), len(names))
-        presets = host.known("--preset", "--method", paper)
         for index, name in [*enumerate(presets)][1:]:
             window.choose_preset(index, len(presets))
-            expect(f"preset {name}", "--method", paper, "--preset", name)
+            window.must_show(of_preset[name], f"preset {name}")
         write_png(host.screenshot, screen.rows())
 
 
 def views(host, screen):
     """Every view can be chosen, and of the textures the first, the last and some in between."""
     preset = ("--method", "walr_paper", "--preset", "robust")  # Its list of textures needs no scrolling.
+    textures = host.known("--view", *preset)
+    chosen = sorted({0, textures.index("normal"), len(textures) - 1, *range(3, len(textures), 7)})
+    expected = {index: host.pictures("3-3", "--view", textures[index], *preset)[3] for index in chosen}
     with host.window(screen, "0-3", *preset) as window:
         window.choose_view("texture")
-        textures = host.known("--view", *preset)
-        for index in sorted({0, textures.index("normal"), len(textures) - 1, *range(3, len(textures), 7)}):
+        for index in chosen:
             window.choose_texture(index, len(textures))
-            expected = host.pictures("3-3", "--view", textures[index], *preset)[3]
-            window.must_show(expected, f"texture '{textures[index]}'")
+            window.must_show(expected[index], f"texture '{textures[index]}'")
         write_png(host.screenshot, screen.rows())
         # A split view needs a reference: another frame is traced, with it, and stays for the views after it.
         before = window.picture()
@@ -306,6 +310,7 @@ def views(host, screen):
 def play(host, screen):
     """Pause, camera cut, history reset, and a camera moved by the user."""
     albedo = host.pictures("0-11", "--view", "albedo")
+    names, textures = host.known("--method"), host.known("--view", "--method", "accumulate")
     with host.window(screen, "0-11", "--view", "albedo") as window:
         window.pause()
         window.freeze()
@@ -334,7 +339,6 @@ def play(host, screen):
         window.must_show(albedo[5], "frame 5 again, after a flight")
 
         # Tracing goes on while it is paused: samples add up, until the history is dropped.
-        names = host.known("--method")
         window.freeze()
         window.choose_view("denoised")
         window.choose_method(names.index("accumulate"), len(names))
@@ -352,7 +356,6 @@ def play(host, screen):
 
         window.freeze()
         window.choose_view("texture")
-        textures = host.known("--view", "--method", "accumulate")
         window.choose_texture(textures.index("albedo"), len(textures))
         window.freeze()
         window.must_show(albedo[5], "frame 5 as long as it is paused")
@@ -432,11 +435,11 @@ def lint(host, screen):
 def drop(host, screen):
     """A scene that is dropped onto the window takes the place of the old one; a file that is none leaves it."""
     view = ("--view", "albedo")
+    other = Host(host.program, host.scene.with_name("turntable.gltf"), host.folder, host.screenshot)
+    # Until frame 12, nothing moves in it.
+    expected = other.pictures("0-0", *view)[0]
     with host.window(screen, "0-3", *view) as window:
         files = FileDrop(screen)
-        other = Host(host.program, host.scene.with_name("turntable.gltf"), host.folder, host.screenshot)
-        # Until frame 12, nothing moves in it.
-        expected = other.pictures("0-0", *view)[0]
         files.drop(other.scene)
         window.must_show(expected, "the scene that was dropped onto it")
         broken = host.folder / "broken.glb"
