@@ -41,8 +41,10 @@ inline void visitThresholds(SettingVisitor& v, std::string_view planeToleranceNa
            "Largest distance of a history pixel from the surface's plane or, with rejection depth, from its depth",
            "fraction of depth", 0.0, 1.0, "measured"},
           thresholds.planeTolerance);
-  v.visit({normalThresholdName, "Smallest cosine between geometric normals of surface and history pixel", "", -1.0, 1.0,
-           "measured"},
+  v.visit({normalThresholdName,
+           "Smallest cosine between geometric normals of surface and history pixel, of specular light between shading "
+           "normals",
+           "", -1.0, 1.0, "measured"},
           thresholds.normalThreshold);
 }
 

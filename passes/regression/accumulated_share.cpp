@@ -31,7 +31,6 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
   const fg::Extent twice = {2 * inputs.tiles.width, inputs.tiles.height};
   const fg::History statistics = graph->history("residual statistics", {VK_FORMAT_R16G16B16A16_SFLOAT, twice});
   const fg::History agreement = graph->history("residual agreement", {VK_FORMAT_R16G16B16A16_SFLOAT, inputs.tiles});
-  const fg::History innovation = graph->history("innovation", {VK_FORMAT_R8_UINT, gridExtent(pixels, 2)});
   // Without a history that somebody steers, history may be as long as packed light can count.
   const SteeredHistory history =
       inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples);
@@ -43,9 +42,12 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .specialize("kAntilag", inputs.antilag.valid())
       .sampleIf(inputs.antilag.valid(), "antilag", inputs.antilag, inputs.lighting)
       .sample("previousStatistics", statistics.previous)
-      .sample("previousAgreement", agreement.previous)
-      .sample("previousInnovation", innovation.previous);
-  static_cast<void>(apply.store("outInnovation", innovation.current));
+      .sample("previousAgreement", agreement.previous);
+  if (!inputs.specular) {  // Its history is not steered.
+    const fg::History innovation = graph->history("innovation", {VK_FORMAT_R8_UINT, gridExtent(pixels, 2)});
+    apply.sample("previousInnovation", innovation.previous);
+    static_cast<void>(apply.store("outInnovation", innovation.current));
+  }
   const fg::Texture sums =
       apply.store("outResidualSums", graph->texture("residual sums", {VK_FORMAT_R32G32B32A32_SFLOAT, twice}));
   const fg::Texture innovationSums = apply.store(

@@ -28,8 +28,9 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
   if (settings.preparesGuides) return;
   pass.specialize("kDilateMotion", settings.dilateMotion).specialize("kNormalBesideDepth", normalBesideDepth);
   if (settings.testsNormals) {
-    pass.sampleIf(readsNormals && guides.previousGeometricNormal.valid(), "previousGeometricNormal",
-                  guides.previousGeometricNormal, standIns.number);
+    // Taps of specular light are given, and its views leave the normals unread.
+    const bool kept = guides.previousGeometricNormal.valid() || !inputs.conventions.specular;
+    pass.sampleIf(readsNormals && kept, "previousGeometricNormal", guides.previousGeometricNormal, standIns.number);
   }
   pass.sampleIf(readsNormals, "geometricNormal", guides.geometricNormal, standIns.number);
 }

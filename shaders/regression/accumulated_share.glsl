@@ -38,7 +38,8 @@ uniform texture2D lighting;
 uniform sampler2D antilag;
 uniform texture2D previousStatistics;  // residual_statistics.comp; cube roots.
 uniform sampler2D previousAgreement;   // Blue: trust; alpha: tileState.
-layout(rgba32f) uniform writeonly image2D outResidualSums;  // Right half: of pixels beside an edge.
+layout(rgba32f) uniform writeonly image2D outResidualSums;    // Right half: of pixels beside an edge.
+layout(rgba32f) uniform writeonly image2D outInnovationSums;  // xy: innovationTerms; zw: farProduct.
 
 // Whether the tile of this workgroup lay among tiles in the last frame that are all quiet. The same for all threads.
 bool isAmongQuiet() {
@@ -296,7 +297,9 @@ void storeSums(Measured pixel) {
 
 // What a workgroup that takes no part leaves to later frames: nothing.
 void storeNoSums(ivec2 p, bool hasPixel) {
+#ifndef SPECULAR
   if (hasPixel && isFirstOfQuad(p)) storeInnovation(p, 0.0);
+#endif
   if (gl_LocalInvocationIndex != 0u) return;
   const ivec2 tile = ivec2(gl_WorkGroupID.xy);
   imageStore(outResidualSums, tile, vec4(0.0));
@@ -351,7 +354,9 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
 
   vec3 result = shown.predicted;
   Measured measured = Measured(vec2(0.0), vec4(0.0), false, vec2(0.0), vec4(0.0));
+#ifndef SPECULAR
   float innovation = 0.0;
+#endif
   if (accumulated.mean.a > 0.0) {
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
     const SameSurface surface = sameSurfaceAs(shown);
@@ -376,12 +381,16 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
       measured.statistics.yw /= residualGain(ownRoughness);  // As good as a gain, and trust does not know of it.
 #endif
     }
+#ifndef SPECULAR
     if (isFirstOfQuad(p)) {
       innovation = meanInnovation(quad);
       if (steers) measured.innovation = innovationTerms(quad, before);
     }
+#endif
   }
+#ifndef SPECULAR
   if (hasPixel && isFirstOfQuad(p)) storeInnovation(p, innovation);
+#endif
   storeSums(measured);
   return clamp(result, vec3(0.0), vec3(kLightUnit));  // As predictions are: packed light holds no more.
 }

@@ -4,7 +4,8 @@
 // reflected now.
 // The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
 // history (confidence.glsl).
-// Needs the geometric normal in a texture of its own. Tests history by plane.
+// Needs the geometric normal in a texture of its own. Tests history by the plane of the shading normal, by
+// roughness and, of mirrors, by the distance of what is reflected.
 // BLOCKS: also writes what the regression over blocks reads: a depth with the geometric normal, and in the reflector of
 // every pixel the mean distance of what is reflected, which else only mirrors have.
 // VIEW: does the same work and writes its intermediate values.
@@ -72,7 +73,7 @@ const float kNoHistory = 4.0;             // A miss larger than that of any two 
 // A reflecting surface at a pixel, in the view space of its frame.
 struct Reflector {
   vec3 position;
-  vec3 plane;   // Geometric normal.
+  vec3 plane;   // Geometric normal; where history is sought, the shading normal.
   vec3 normal;  // Shading normal.
   float roughness;
 };
@@ -105,8 +106,7 @@ Reflector reflectorAt(ivec2 p) {
                    tileNormals[inTile(ivec2(0))].xyz, validRoughness(texelFetch(roughness, p, 0).x));
 }
 
-// Whether two points with their geometric normals lie on one surface. The mean of the normals is perpendicular to the
-// line between any two points of a sphere or a plane.
+// Whether two points with these normals lie on one surface. The mean of the normals is perpendicular to the line between any two points of a sphere or a plane.
 bool areOnOneSurface(vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
   const bool facing = dot(normalA, normalB) >= constants.normalThreshold;
   return facing && abs(dot(b - a, normalA + normalB)) <= -2.0 * constants.planeTolerance * a.z;
@@ -202,7 +202,7 @@ bool isSought(ReflectedDistance distance, float z, vec2 inverses) {
   return distance.frames == 0.0 || (inverse >= inverses.x && inverse <= inverses.y);
 }
 
-// What the previous frame shows at a position: the mean of those of its pixels there that show the same surface.
+// What the previous frame shows at a position: the mean of those of its pixels there that show what is sought.
 struct Before {
   vec3 position;
   vec3 normal;  // Not normalised.
@@ -211,7 +211,7 @@ struct Before {
   vec3 normalSlopes[2];
   bvec4 accepted;
   bool found;
-  bool whole;  // All four pixels show the surface.
+  bool whole;  // All four pixels show what is sought.
 };
 
 Before surfaceBefore(HistoryTaps taps, Sought sought) {

@@ -20,7 +20,7 @@ struct MethodName {
   std::string preset;  ///< Empty if the method has none.
   test::LightSet lights = {};
 
-  /// "walr_paper:robust", "flr", "walr:standard both lights".
+  /// "walr_paper:robust", "flr", "walr:standard both".
   [[nodiscard]] std::string text() const {
     return (preset.empty() ? method : method + ":" + preset) + lights.suffix(' ');
   }

@@ -145,13 +145,15 @@ TEST_P(DenoiserPlansTest, IsAcceptedByTheVerifier) {
   EXPECT_TRUE(faults.empty()) << faults.front();
 }
 
-/// Of diffuse light alone.
-class DiffusePlansTest : public DenoiserPlansTest {};
-
-TEST_P(DiffusePlansTest, NeedsAtMostTwoPercentMoreMemoryThanItsLowerBound) {
+TEST_P(DenoiserPlansTest, NeedsAtMostTwoPercentMoreMemoryThanItsLowerBound) {
   const fg::MemoryReport& memory = plan().memory;
-  // The project's goal is 2 %. Some graphs with specular light miss it by a byte a pixel (LEARNT.md, "Reflections").
-  EXPECT_LE(static_cast<double>(memory.transientPeakBytes), 1.02 * static_cast<double>(memory.transientLowerBoundBytes))
+  // The project's goal is 2 %. Some graphs with specular light miss it by the byte a pixel of a confidence, and those
+  // of both lights by an image of light, which the other one's cannot overlay (LEARNT.md, "Reflections").
+  const test::LightSet& lights = GetParam().lights;
+  const double bytesPerPixel = !lights.specular ? 0.0 : lights.diffuse ? 9.0 : 1.0;
+  const double missed = bytesPerPixel * kExtent.width * kExtent.height;
+  EXPECT_LE(static_cast<double>(memory.transientPeakBytes),
+            1.02 * static_cast<double>(memory.transientLowerBoundBytes) + missed)
       << memory.transientPeakBytes << " bytes, at least " << memory.transientLowerBoundBytes;
 }
 
@@ -206,6 +208,9 @@ TEST(DenoiserPlans, TheFilterWritesTheResultIfTheHostAntialiases) {
     EXPECT_EQ(passesNamed(declared.graph.desc(), "pass through"), 0U) << name;
   }
 }
+
+/// Of diffuse light alone.
+class DiffusePlansTest : public DenoiserPlansTest {};
 
 // The second light has the passes of the first but those that prepare guides, under names of their own.
 TEST_P(DiffusePlansTest, TwoLightsShareTheGuides) {

@@ -57,10 +57,16 @@ TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
 // Lobes that are narrow, as wide as the wide ones whose gain is full, and wider.
 TEST_F(AccumulatedShare, OfSpecularLightAgreesWithDoublePrecision) {
   const ResidualLight light = stripedLight(0.3, 1.0);
-  for (const double stored : {26.0, 64.0, 204.0}) {
-    const double roughness = stored / 255.0;  // .1, .25 and .8.
+  struct Case {
+    double roughness;
+    Scene scene;
+    double zoom;
+  };
+  for (const Case& each : {Case{26.0 / 255.0, flatWall(), 30.0}, Case{64.0 / 255.0, flatWall(), 30.0},
+                           Case{204.0 / 255.0, flatWall(), 30.0}, Case{204.0 / 255.0, thinBars(), 1.0}}) {
+    const double roughness = each.roughness;
     SCOPED_TRACE(roughness);
-    FilterOf filter(device(), roughness);
+    FilterOf filter(device(), roughness, each.scene, each.zoom);
     // The first frame has no statistics, and adds the least share s of the residual: p + s (m - p).
     Image<glm::dvec4> predicted = filter.filter(light);
     const double least = reference::imageShare(roughness, std::abs(double(filter.constants().rayFromPixel.y)));

@@ -38,10 +38,10 @@ class FilterOf {
   /// Of diffuse light.
   FilterOf(const fg::test::TestDevice& device, const Scene& scene, bool share)
       : FilterOf(device, renderStill(scene, kSize), share, {}) {}
-  /// Of specular light on a wall. Lobes are so many pixels wide that hardly any shows an image.
-  FilterOf(const fg::test::TestDevice& device, double roughness)
-      : FilterOf(device, renderFrame(flatWall(), zoomed(30.0), kSize), true,
-                 {kSize, reference::Reflector{roughness, 1.0}}) {}
+  /// Of specular light. With a zoom of 30, lobes are so many pixels wide that hardly any shows an image.
+  FilterOf(const fg::test::TestDevice& device, double roughness, const Scene& scene = flatWall(), double zoom = 30.0)
+      : FilterOf(device, renderFrame(scene, zoomed(zoom), kSize), true, {kSize, reference::Reflector{roughness, 1.0}}) {
+  }
   FilterOf(const fg::test::TestDevice& device, const reference::HostFrame& frame, bool share,
            const Image<reference::Reflector>& reflectors)
       : frame_(frame),
@@ -153,7 +153,7 @@ class ExpectedResult {
     });
     reference::forEachPixel(kSize, [&](glm::ivec2 p) { lookAround(p); });
     if (roughness) {
-      if (*roughness < 0.25) edges_ = Image<int>(kSize, 1);  // Narrow lobes stand for edges.
+      if (*roughness < 0.25) edges_ = Image<int>(kSize, 1);  // They count as beside an edge.
       lobeGain_ = std::pow(std::min(0.3 / *roughness, 1.0), 2.0);
       leastShare_ = reference::imageShare(*roughness, std::abs(double(constants_.rayFromPixel.y)));
     }
