@@ -48,6 +48,7 @@ struct Take {
   glm::dvec3 step{0.0};   ///< The camera's movement per frame.
   bool jittered = false;  ///< Samples are off the pixel centres; motion includes the jitter of both frames.
   bool objectIds = false;
+  double roughness = 0.0;  ///< Above 0: the light is specular, and shows what is one unit away from the surface.
 };
 
 using RectangleOf = Rectangle (*)(std::uint32_t frame);
@@ -68,7 +69,14 @@ FrameDescription cameraOf(const Take& take, RectangleOf rectangle, std::uint32_t
 }
 
 HostFrame render(const Take& take, RectangleOf rectangle, std::uint32_t frame) {
-  return renderFrame(take.scene, cameraOf(take, rectangle, frame), rectangle(frame).size, take.light, take.noise);
+  const glm::ivec2 size = rectangle(frame).size;
+  HostFrame rendered = renderFrame(take.scene, cameraOf(take, rectangle, frame), size, take.light, take.noise);
+  if (take.roughness > 0.0) {
+    rendered.conventions.specular = true;
+    rendered.lightAlpha = Image<double>(size, 1.0);
+    rendered.roughness = Image<double>(size, take.roughness);
+  }
+  return rendered;
 }
 
 HostedRun::Options optionsOf(const Take& take) {
@@ -78,6 +86,7 @@ HostedRun::Options optionsOf(const Take& take) {
   options.conventions.motion_jittered = take.jittered ? VK_TRUE : VK_FALSE;
   options.rememberedCamera = true;
   options.objectIds = take.objectIds;
+  options.specular = take.roughness > 0.0;
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
   options.formats = {kFloats, VK_FORMAT_R32_SFLOAT, kFloats, kFloats, kFloats};
   return options;
@@ -85,12 +94,16 @@ HostedRun::Options optionsOf(const Take& take) {
 
 void fill(HostedRun& run, const HostFrame& frame, const Rectangle& rectangle) {
   const glm::vec4 nowhere(std::numeric_limits<float>::quiet_NaN());
-  const auto hand = [&](const char* name, const Image<glm::dvec3>& image) {
+  const auto hand = [&](const char* name, const Image<glm::dvec3>& image, double alpha = 0.0) {
     std::vector<glm::vec4> texels;
-    for (const glm::dvec3& value : image.pixels()) texels.emplace_back(glm::vec3(value), 0.0F);
+    for (const glm::dvec3& value : image.pixels()) texels.emplace_back(glm::vec3(value), float(alpha));
     run.fill(name, placed(texels, rectangle.size, run.imageSize(), rectangle.offset, nowhere));
   };
-  hand("lighting", frame.lighting);
+  hand("lighting", frame.lighting, frame.conventions.specular ? frame.lightAlpha[{0, 0}] : 0.0);
+  if (frame.conventions.specular) {
+    constexpr std::uint8_t kMirror = 0;
+    run.fill("roughness", placed(encodeRoughness(frame), rectangle.size, run.imageSize(), rectangle.offset, kMirror));
+  }
   hand("normal", frame.normal);
   hand("motion", frame.motion);
   hand("albedo", frame.albedo);
@@ -230,6 +243,17 @@ void expectHistoryIsKept(const ErrorsAtChanges& errors) {
 TEST_P(DynamicResolutionMethod, ErrorEqualsThatOfARectangleOfConstantSize) {
   const Take take{.scene = sphere(), .step = {0.05, 0.03, -0.04}, .jittered = true};
   expectHistoryIsKept(errorsAtChanges(device(), GetParam(), take));
+}
+
+// Of a lobe whose history moves with the mirror image, and of one whose history moves with the surface.
+TEST_F(DynamicResolution, ErrorOfSpecularLightEqualsThatOfARectangleOfConstantSize) {
+  for (const double roughness : {0.2, 0.8}) {
+    for (const char* method : {"walr", "svgf", "accumulate"}) {
+      SCOPED_TRACE(std::string(method) + ", roughness " + std::to_string(roughness));
+      const Take take{.scene = sphere(), .step = {0.05, 0.03, -0.04}, .jittered = true, .roughness = roughness};
+      expectHistoryIsKept(errorsAtChanges(device(), method, take));
+    }
+  }
 }
 
 /// A scene of small objects with different ids, a third of a unit wide. A history that is read at a wrong position

@@ -120,7 +120,7 @@ HostedRun::HostedRun(const fg::test::TestDevice& device, const char* method, glm
   info.depth_format = options.formats[1];
   info.normal_format = options.formats[2];
   info.motion_format = options.formats[3];
-  info.albedo_format = options.formats[4];
+  (specular_ ? info.specular_albedo_format : info.albedo_format) = options.formats[4];
   info.denoised_format = options.denoisedFormat;
   if (objectIds_) info.object_id_format = VK_FORMAT_R32_UINT;
   info.confidence_format = options.confidenceFormat;
