@@ -31,7 +31,7 @@ import judging
 import places
 import rendering
 
-COMPARED = entries.built_in("kitchen_gloss", "kitchen_gloss", entries.QHD, (19, 19), 1, reference_samples=48, camera="floor")
+COMPARED = entries.built_in("kitchen_gloss", "kitchen_gloss", entries.QHD, (19, 19), 1, reference_samples=96, camera="floor")
 ANIMATED = entries.corpus()["sponza_360"]
 ANIMATED_FRAMES = 20, 51
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
