@@ -69,14 +69,9 @@ FrameDescription cameraOf(const Take& take, RectangleOf rectangle, std::uint32_t
 }
 
 HostFrame render(const Take& take, RectangleOf rectangle, std::uint32_t frame) {
-  const glm::ivec2 size = rectangle(frame).size;
-  HostFrame rendered = renderFrame(take.scene, cameraOf(take, rectangle, frame), size, take.light, take.noise);
-  if (take.roughness > 0.0) {
-    rendered.conventions.specular = true;
-    rendered.lightAlpha = Image<double>(size, 1.0);
-    rendered.roughness = Image<double>(size, take.roughness);
-  }
-  return rendered;
+  const HostFrame rendered =
+      renderFrame(take.scene, cameraOf(take, rectangle, frame), rectangle(frame).size, take.light, take.noise);
+  return take.roughness > 0.0 ? asSpecular(rendered, 1.0, take.roughness) : rendered;
 }
 
 HostedRun::Options optionsOf(const Take& take) {

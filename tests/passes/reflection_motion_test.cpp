@@ -117,11 +117,8 @@ FrameDescription zoomed(FrameDescription camera) {
 
 /// A frame of specular light. What is reflected lies at one distance from all pixels.
 HostFrame specularFrame(const Scene& scene, const FrameDescription& camera, double distance, double roughness) {
-  HostFrame frame = renderFrame(scene, camera, kSize, smoothLight, Noise::None);
-  frame.conventions.specular = true;
-  frame.lightAlpha = Image<double>(kSize, distance);
-  frame.roughness = Image<double>(kSize, std::round(255.0 * roughness) / 255.0);
-  return frame;
+  const HostFrame frame = renderFrame(scene, camera, kSize, smoothLight, Noise::None);
+  return asSpecular(frame, distance, std::round(255.0 * roughness) / 255.0);
 }
 
 /// A method, or the stage alone on given guides, on a device frame by frame, with the stage's views.

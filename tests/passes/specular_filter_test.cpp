@@ -69,11 +69,7 @@ TEST_F(SpecularFilter, RegressionAgreesWithBruteForce) {
 
 /// Frames of a still wall whose roughness is the same everywhere.
 HostFrame specularFrame(double roughness, double distance, std::uint32_t index) {
-  HostFrame frame = renderStill(wallFacing({0.0, 0.0, 1.0}), kSize, index);
-  frame.conventions.specular = true;
-  frame.lightAlpha = Image<double>(kSize, distance);
-  frame.roughness = Image<double>(kSize, roughness);
-  return frame;
+  return asSpecular(renderStill(wallFacing({0.0, 0.0, 1.0}), kSize, index), distance, roughness);
 }
 
 // A mirror shows an image, which no fit knows: the light stays as it is. In a first frame it is that of the frame.

@@ -262,6 +262,13 @@ HostFrame renderStill(const Scene& scene, glm::ivec2 size, std::uint32_t frameIn
   return renderFrame(scene, cameraAt({}, {}, size, frameIndex), size, smoothLight, noise);
 }
 
+HostFrame asSpecular(HostFrame frame, double distance, double roughness) {
+  frame.conventions.specular = true;
+  frame.lightAlpha = reference::Image<double>(frame.size(), distance);
+  frame.roughness = reference::Image<double>(frame.size(), roughness);
+  return frame;
+}
+
 glm::dvec3 cameraPosition(double time) {
   return {0.09 * time, 0.04 * time, -0.03 * time};
 }

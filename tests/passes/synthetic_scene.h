@@ -84,6 +84,8 @@ reference::HostFrame renderFrame(const Scene& scene, const FrameDescription& cam
 /// Render a frame of a still camera.
 reference::HostFrame renderStill(const Scene& scene, glm::ivec2 size, std::uint32_t frameIndex = 0,
                                  Noise noise = Noise::Exponential);
+/// The frame as one of specular light: all pixels have this roughness, and reflect what lies at this distance.
+reference::HostFrame asSpecular(reference::HostFrame frame, double distance, double roughness);
 
 /// The first frames of the camera of `cameraPosition`.
 std::vector<reference::HostFrame> movingFrames(const Scene& scene, glm::ivec2 size, std::uint32_t count = 3,
