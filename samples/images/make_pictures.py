@@ -9,7 +9,7 @@ writes to this script's folder
     animation.webp    frames of ANIMATED: the left half of the picture noisy, the right half denoised
 
 All light is noisy, with one sample per pixel of direct, indirect and, in COMPARED, specular light, and all of it is denoised. Frames
-are rendered into the corpus's cache and kept there: some five minutes on two idle cores, and one once they are there. Needs numpy and
+are rendered into the corpus's cache and kept there: some ten minutes on two idle cores, and one once they are there. Needs numpy and
 Pillow, which come with Debian's python3-matplotlib.
 """
 import argparse
