@@ -104,7 +104,7 @@ class Batch {
     }
     for (std::size_t repetition = 0; repetition < options_.repetitions; ++repetition) {
       for (std::size_t i = 0; i < frames; ++i) {
-        const PackedFrame frame = packFrame(sequence_.read(i));
+        const PackedFrame frame = packFrame(sequence_.read(i), judgedLight(sequence_));
         forEachLane(i + repetition, [&](Lane& lane) { time(lane, frame, i); });
         options_.frameDone();
       }
@@ -133,7 +133,7 @@ class Batch {
     errors.resetHistory = frame.resetHistory;
     errors.nonFinite = countNonFinite(result);
     if (frame.reference) {
-      DisplayedPair pair = display(result, frame.reference->indirect, input.judged);
+      DisplayedPair pair = display(result, input.reference(), input.judged);
       judge(lane, input, result, pair);
       if (!frame.resetHistory && lane.previous) {
         judgeChange(lane, pair, input.judged, before, previousMask);
@@ -153,7 +153,8 @@ class Batch {
     errors.psnr = figures.psnr;
     errors.ssim = figures.ssim;
     errors.flip = maskedMean(flip, mask);
-    errors.relativeMse = relativeMse(result, input.packed.frame.reference->indirect, mask);
+    errors.relativeMse = relativeMse(result, input.reference(), mask);
+    if (input.specular()) errors.byRoughness = rmseByRoughness(pair, mask, input.frame().roughness);
     if (isKept(errors.frame)) {
       writeNpy(picture(lane.record.variant, errors.frame), result);
       writeNpy(picture(lane.record.variant + ".errors", errors.frame), errorMaps(pair, mask, flip));
@@ -185,8 +186,8 @@ class Batch {
   void keepGroundTruth(const BenchFrame& input, const std::vector<float>& ages) const {
     const Frame& frame = input.packed.frame;
     if (!isKept(frame.number)) return;
-    writeNpy(picture("_reference", frame.number), frame.reference->indirect);
-    writeNpy(picture("_noisy", frame.number), frame.indirect);
+    writeNpy(picture("_reference", frame.number), input.reference());
+    writeNpy(picture("_noisy", frame.number), input.noisy());
     Image age(frame.depth.width(), frame.depth.height(), 1);
     std::ranges::copy(ages, age.values().begin());
     writeNpy(picture("_age", frame.number), age);

@@ -22,6 +22,7 @@ std::string sequenceKey(const GpuDevice& device, const NamedSequence& sequence, 
   key.add(options.allPictures ? "all pictures" : "few pictures");
   const InputConventions& conventions = sequence.sequence.denoiserLayout().conventions;
   key.add(std::to_string(static_cast<int>(conventions.motionDepth)));
+  key.add(conventions.specular ? "specular" : "diffuse");
   key.add(std::to_string(conventions.light.columns) + " x " + std::to_string(conventions.light.rows));
   for (const Sequence::Entry& entry : sequence.sequence.entries()) {
     key.addFile(entry.file);
@@ -121,6 +122,7 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
                   std::ostream& log, bool terminal) {
   BenchReport report;
   report.build = buildInfo();
+  report.specular = !sequences.empty() && judgedLight(sequences.front().sequence) == Light::Specular;
   report.repetitions = options.repetitions;
   report.variants = options.variants;
   for (const Variant& variant : options.variants) report.settings[variant.name] = settingsOf(variant);

@@ -63,6 +63,7 @@ struct DeviceFacts {
 
 /// All results of a benchmark.
 struct BenchReport {
+  bool specular = false;  ///< Of which light: specular or indirect.
   BuildInfo build;
   DeviceFacts device;
   std::size_t repetitions = 0;

@@ -25,9 +25,10 @@ float depthChangeOfStill(const Frame& frame, int x, int y) {
   return -(camera.previousView * (glm::inverse(camera.view) * view)).z - depth;
 }
 
-VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
+/// @param albedo of the lobe that reflects the light
+VisibleSurfaces visibleSurfaces(const Frame& frame, const Image& albedo, const Layout& layout) {
   VisibleSurfaces surfaces{frame.depth, frame.normal, frame.motion,
-                           diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth)};
+                           diffuseMask(albedo, frame.normal, frame.depth, kSkyDepth)};
   const glm::mat3 toWorld = glm::transpose(glm::mat3(frame.camera.view));
   const bool inView = layout.conventions.normal == InputConventions::Space::View;
   const bool still = layout.conventions.motionDepth == InputConventions::MotionDepth::StaticScene;
@@ -48,14 +49,19 @@ VisibleSurfaces visibleSurfaces(const Frame& frame, const Layout& layout) {
 
 }  // namespace
 
+Light judgedLight(const Sequence& sequence) {
+  return sequence.denoiserLayout().conventions.specular ? Light::Specular : Light::Indirect;
+}
+
 BenchFrame readBenchFrame(const Sequence& sequence, std::size_t index) {
   BenchFrame result;
-  result.packed = packFrame(sequence.read(index));
-  const Frame& frame = result.packed.frame;
-  result.surfaces = visibleSurfaces(frame, *sequence.layout().layout);
-  result.judged = frame.reference
-                      ? diffuseMask(frame.albedo, frame.normal, frame.depth, kSkyDepth, frame.reference->indirect)
-                      : result.surfaces.mask;
+  result.light = judgedLight(sequence);
+  result.packed = packFrame(sequence.read(index), result.light);
+  const Frame& frame = result.frame();
+  const Image& albedo = result.specular() ? frame.specularAlbedo : frame.albedo;
+  result.surfaces = visibleSurfaces(frame, albedo, *sequence.layout().layout);
+  result.judged = frame.reference ? diffuseMask(albedo, frame.normal, frame.depth, kSkyDepth, result.reference())
+                                  : result.surfaces.mask;
   return result;
 }
 
@@ -82,8 +88,12 @@ std::vector<FrameFacts> survey(const Sequence& sequence) {
       fact.disoccluded =
           disoccludedShare(judgedPairs(previousPixels(frame.surfaces, previous.surfaces), mask, previous.judged), mask);
     }
-    if (const auto& reference = frame.packed.frame.reference; reference && !reference->indirectHalf.empty()) {
-      fact.referenceNoise = referenceNoise(reference->indirect, reference->indirectHalf, mask);
+    if (fact.hasReference && !frame.referenceHalf().empty()) {
+      fact.referenceNoise = referenceNoise(frame.reference(), frame.referenceHalf(), mask);
+      for (std::size_t i = 0; frame.specular() && i < kRoughnessClasses; ++i) {
+        fact.noiseByRoughness.at(i) =
+            referenceNoise(frame.reference(), frame.referenceHalf(), maskOfClass(mask, frame.frame().roughness, i));
+      }
     }
     previous = std::move(frame);
     facts.push_back(fact);

@@ -56,10 +56,12 @@ Json variantsJson(const BenchReport& report) {
 Json sequenceJson(const SequenceReport& sequence) {
   Json frames = Json::array();
   for (const FrameFacts& frame : sequence.frames) {
-    frames.push_back({{"frame", frame.number},
-                      {"history_reset", frame.resetHistory},
-                      {"disoccluded", orNull(frame.disoccluded)},
-                      {"reference_noise", orNull(frame.referenceNoise)}});
+    Json object = {{"frame", frame.number},
+                   {"history_reset", frame.resetHistory},
+                   {"disoccluded", orNull(frame.disoccluded)},
+                   {"reference_noise", orNull(frame.referenceNoise)}};
+    addByRoughness(object, "reference_noise_by_roughness", frame.noiseByRoughness);
+    frames.push_back(std::move(object));
   }
   Json runs = Json::array();
   for (const RunRecord& run : sequence.runs) {
@@ -67,6 +69,7 @@ Json sequenceJson(const SequenceReport& sequence) {
     object["mean"] = figuresJson(run.frames, meanOf);
     object["mean_after_4"] = figuresJson(afterWarmUp(run.frames), meanOf);
     object["worst_after_4"] = figuresJson(afterWarmUp(run.frames), worstOf);
+    addByRoughness(object, "rmse_by_roughness_after_4", meanByRoughness(afterWarmUp(run.frames)));
     runs.push_back(std::move(object));
   }
   return {{"name", sequence.name},          {"layout", sequence.layout},
@@ -139,6 +142,19 @@ std::string cell(const std::optional<double>& value, int decimals) {
   return text.str();
 }
 
+/// Errors by class of roughness, if there are any.
+void printRoughness(std::ostream& stream, const SequenceReport& sequence, int widest) {
+  if (sequence.runs.empty() || !hasFigures(meanByRoughness(sequence.runs.front().frames))) return;
+  stream << std::left << std::setw(widest) << "RMSE, r to" << std::right << std::defaultfloat << std::setprecision(6);
+  for (std::size_t i = 0; i < kRoughnessClasses; ++i) stream << std::setw(kCellWidth) << kRoughnessBounds.at(i + 1);
+  stream << '\n';
+  for (const RunRecord& run : sequence.runs) {
+    stream << std::left << std::setw(widest) << run.variant;
+    for (const std::optional<double>& error : meanByRoughness(afterWarmUp(run.frames))) stream << cell(error, 5);
+    stream << '\n';
+  }
+}
+
 void printSequence(std::ostream& stream, const SequenceReport& sequence) {
   std::size_t widest = sequence.name.size();
   for (const RunRecord& run : sequence.runs) widest = std::max(widest, run.variant.size());
@@ -160,6 +176,7 @@ void printSequence(std::ostream& stream, const SequenceReport& sequence) {
     const bool finite = std::ranges::all_of(run.frames, [](const FrameErrors& frame) { return frame.nonFinite == 0; });
     stream << (finite ? "" : "  NOT FINITE") << (run.reproducible ? "" : "  NOT REPRODUCIBLE") << '\n';
   }
+  printRoughness(stream, sequence, static_cast<int>(widest));
 }
 
 }  // namespace
@@ -183,6 +200,7 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   document["tone_map"] = "x/(1+x), exposure 1";
   document["baseline"] = kBaseline;
   document["repetitions"] = report.repetitions;
+  document["light"] = report.specular ? "specular" : "indirect";
   document["metrics"] = Json::array();
   for (const Metric& metric : kMetrics) {
     constexpr std::array kBetter = {"lower", "higher", "as_reference"};

@@ -16,6 +16,20 @@ std::optional<double> meanOf(const std::vector<FrameErrors>& frames, const Metri
   return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
 }
 
+FiguresByRoughness meanByRoughness(const std::vector<FrameErrors>& frames) {
+  FiguresByRoughness means;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const FrameErrors& frame : frames) {
+      sum += frame.byRoughness.at(i).value_or(0.0);
+      count += frame.byRoughness.at(i).has_value() ? 1 : 0;
+    }
+    if (count > 0) means.at(i) = sum / static_cast<double>(count);
+  }
+  return means;
+}
+
 std::optional<double> worstOf(const std::vector<FrameErrors>& frames, const Metric& metric) {
   std::optional<double> worst;
   for (const FrameErrors& frame : frames) {

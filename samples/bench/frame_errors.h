@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "samples/denoise/roughness_classes.h"
+
 namespace walr {
 
 /// Errors of a frame's result. A value is absent where it is undefined, for instance without a reference.
@@ -20,7 +22,8 @@ struct FrameErrors {
   std::optional<double> flicker;
   std::optional<double> luminanceChange;
   std::optional<double> referenceLuminanceChange;
-  std::size_t nonFinite = 0;  ///< Number of non-finite values in the result.
+  FiguresByRoughness byRoughness;  ///< RMSE of each class, of specular light.
+  std::size_t nonFinite = 0;       ///< Number of non-finite values in the result.
 };
 
 /// A member of `FrameErrors` and its name in files.
@@ -51,6 +54,8 @@ inline constexpr std::array kMetrics = {
 
 /// Mean of a metric over the frames that have it.
 std::optional<double> meanOf(const std::vector<FrameErrors>& frames, const Metric& metric);
+/// Mean RMSE of each class over the frames that have it.
+FiguresByRoughness meanByRoughness(const std::vector<FrameErrors>& frames);
 /// The worst value of all frames; nullopt for metrics without better and worse.
 std::optional<double> worstOf(const std::vector<FrameErrors>& frames, const Metric& metric);
 

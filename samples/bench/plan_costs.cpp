@@ -16,14 +16,14 @@ PlanCosts planCosts(const Variant& variant, fg::Extent extent, const InputConven
   }
   const auto pixels = static_cast<double>(extent.width) * static_cast<double>(extent.height);
   const fg::MemoryReport& memory = result.plan.memory;
-  return {
-      .extent = extent,
-      .bytesReadPerPixel = static_cast<double>(result.plan.traffic.bytesRead) / pixels,
-      .bytesWrittenPerPixel = static_cast<double>(result.plan.traffic.bytesWritten) / pixels,
-      .persistentBytes = memory.persistentBytes,
-      .transientUnaliasedBytes = memory.transientUnaliasedBytes,
-      .transientPeakBytes = memory.transientPeakBytes,
-      .estimatedMicroseconds = estimatedMicroseconds(variant, extent, shaderFigures(), machineNamed(kDefaultMachine))};
+  return {.extent = extent,
+          .bytesReadPerPixel = static_cast<double>(result.plan.traffic.bytesRead) / pixels,
+          .bytesWrittenPerPixel = static_cast<double>(result.plan.traffic.bytesWritten) / pixels,
+          .persistentBytes = memory.persistentBytes,
+          .transientUnaliasedBytes = memory.transientUnaliasedBytes,
+          .transientPeakBytes = memory.transientPeakBytes,
+          .estimatedMicroseconds = estimatedMicroseconds(variant, extent, shaderFigures(),
+                                                         machineNamed(kDefaultMachine), conventions.specular)};
 }
 
 }  // namespace walr

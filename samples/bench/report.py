@@ -11,6 +11,7 @@ import base64
 import csv
 import html
 import io
+import itertools
 import math
 import sys
 
@@ -87,6 +88,19 @@ def methods_table(bench, sequence):
     return table(header + times + ["bytes/pixel", "ESTIMATED GPU us"], rows,
                  f"{html.escape(sequence or 'Mean over the sequences')}: means over frames after the fourth; "
                  "bold: the best method with a spatial filter")
+
+
+ROUGHNESS_BOUNDS = ("0", ".1", ".2", ".3", ".4", ".6", "1")
+"""Of the classes of `rmse_by_roughness`."""
+
+
+def roughness_table(bench, sequence):
+    """Errors of specular light by linear roughness, and the noise of the reference."""
+    rows = [[html.escape(n)] + [number(v, 4) for v in bench.runs[sequence, n].get("rmse_by_roughness_after_4", [None] * 6)]
+            for n in bench.methods]
+    rows.append(["noise of the reference", *(number(v, 4) for v in bench.floor_by_roughness(sequence))])
+    return table(["method"] + [f"{a} to {b}" for a, b in itertools.pairwise(ROUGHNESS_BOUNDS)], rows,
+                 f"{html.escape(sequence)}: RMSE by linear roughness, means over frames after the fourth")
 
 
 def against_baseline(bench):
@@ -303,6 +317,11 @@ small { color: #777 } .warning { background: #fff3cd; padding: .6em 1em; border-
 """
 
 
+LIGHTS = {"indirect": "diffuse indirect light, over pixels with a diffuse lobe",
+          "specular": "specular light, over pixels with a specular lobe"}
+"""What the errors are of, by the value of `light`."""
+
+
 def estimate_note(estimate):
     """What an estimated GPU time is."""
     return html.escape(
@@ -315,6 +334,8 @@ def sequences_sections(bench, names):
     out = ["<h2>Errors and costs</h2>"]
     for sequence in ([None] if len(names) > 1 else []) + names:
         out.append(methods_table(bench, sequence))
+    if bench.json["light"] == "specular":
+        out += [roughness_table(bench, sequence) for sequence in names]
     out.append(f"<p>{estimate_note(bench.json['estimate'])}</p>")
     out.append(f"<h2>{html.escape(bench.baseline)} against the others</h2>" + against_baseline(bench))
     out.append("<h2>Error against cost</h2><p>Filled: on the Pareto front (no other method is better in both). Bars: 5 to "
@@ -357,14 +378,14 @@ def page(bench):
     if data["hard_cases"]:
         out.append("<h2>Hard cases of the arithmetic</h2>" + hard_cases_section(bench))
     if names:
-        out.append("<h2>Pictures</h2><p>Indirect light in the frame with the largest disocclusion, and in the last one. "
+        out.append("<h2>Pictures</h2><p>Light in the frame with the largest disocclusion, and in the last one. "
                    "This choice depends on the input alone.</p>")
     for sequence in names:
         for frame in bench.sequences[sequence]["picture_frames"]:
             out.append(pictures_section(bench, sequence, frame))
     out.append("<h2>Metrics</h2><dl>" + "".join(
         f"<dt>{html.escape(m['name'])}</dt><dd>{html.escape(m['description'])}</dd>" for m in data["metrics"]) + "</dl>"
-        "<p>Errors are those of the demodulated diffuse indirect light, over pixels with a diffuse lobe. Non-finite "
+        f"<p>Errors are those of the demodulated {LIGHTS[data['light']]}. Non-finite "
         "values count as the largest possible error and are shown in magenta.</p></html>")
     return "\n".join(out)
 

@@ -82,6 +82,12 @@ class Bench:
         values = [f["reference_noise"] for f in self.sequences[sequence]["frames"]]
         return None if None in values else sum(values) / len(values)
 
+    def floor_by_roughness(self, sequence):
+        """The same in each class of roughness; None in a class that is not known in every frame."""
+        frames = [f.get("reference_noise_by_roughness", [None] * 6) for f in self.sequences[sequence]["frames"]]
+        judged = [f for f in frames if any(v is not None for v in f)]
+        return [None if None in values else sum(values) / len(values) for values in zip(*judged)] or [None] * 6
+
     def picture(self, sequence, name, frame):
         path = self.folder / "pictures" / sequence / f"{name}_{frame:04d}.npy"
         return np.load(path).astype(np.float32)

@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kByRoughness = "rmse_by_roughness";
+
 }  // namespace
 
 Json toJson(const RunRecord& record) {
@@ -19,6 +21,7 @@ Json toJson(const RunRecord& record) {
   for (const FrameErrors& frame : record.frames) {
     Json object = {{"frame", frame.frame}, {"history_reset", frame.resetHistory}};
     for (const Metric& metric : kMetrics) object[std::string(metric.name)] = orNull(frame.*metric.figure);
+    addByRoughness(object, kByRoughness, frame.byRoughness);
     object["non_finite"] = frame.nonFinite;
     frames.push_back(std::move(object));
   }
@@ -39,6 +42,10 @@ RunRecord recordFromJson(const Json& json) {
     for (const Metric& metric : kMetrics) {
       const Json& figure = object.at(std::string(metric.name));
       if (!figure.is_null()) frame.*metric.figure = figure.get<double>();
+    }
+    for (std::size_t i = 0; object.contains(kByRoughness) && i < kRoughnessClasses; ++i) {
+      const Json& figure = object[kByRoughness].at(i);
+      if (!figure.is_null()) frame.byRoughness.at(i) = figure.get<double>();
     }
     frame.nonFinite = object.at("non_finite");
     record.frames.push_back(frame);

@@ -19,8 +19,10 @@ bool hasDefaultSettings(const Variant& variant) {
 }  // namespace
 
 std::vector<PassEstimate> estimatePasses(const Variant& variant, fg::Extent extent, const FigureTable& table,
-                                         const Machine& machine) {
-  const DenoiseGraph declared = declareDenoiseGraph(*makeVariant(variant), extent, InputConventions{}, kComputeHost);
+                                         const Machine& machine, bool specular) {
+  InputConventions conventions;
+  conventions.specular = specular;
+  const DenoiseGraph declared = declareDenoiseGraph(*makeVariant(variant), extent, conventions, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) {
     throw std::runtime_error("the frame graph of '" + variant.name + "' does not compile:\n" + result.text());
@@ -38,9 +40,9 @@ std::vector<PassEstimate> estimatePasses(const Variant& variant, fg::Extent exte
 }
 
 std::optional<double> estimatedMicroseconds(const Variant& variant, fg::Extent extent, const FigureTable& table,
-                                            const Machine& machine) {
+                                            const Machine& machine, bool specular) {
   FrameEstimate estimate;
-  for (const PassEstimate& pass : estimatePasses(variant, extent, table, machine))
+  for (const PassEstimate& pass : estimatePasses(variant, extent, table, machine, specular))
     estimate.add(pass.batch, pass.bounds);
   return estimate.microseconds();
 }

@@ -25,12 +25,13 @@ struct PassEstimate {
 /// Estimates of the passes of a variant, in the order of execution, for inputs with the project's own conventions:
 /// those of other sequences change a few instructions. A variant with other settings than those of its method and
 /// preset has no estimates, because the table's rounds of loops hold for those only.
+/// @param specular the light is specular
 /// @throws std::invalid_argument naming a setting that is out of range
 std::vector<PassEstimate> estimatePasses(const Variant& variant, fg::Extent extent, const FigureTable& table,
-                                         const Machine& machine);
+                                         const Machine& machine, bool specular = false);
 
 /// The estimate of a frame (`FrameEstimate`) in microseconds; nothing if a pass has none.
 std::optional<double> estimatedMicroseconds(const Variant& variant, fg::Extent extent, const FigureTable& table,
-                                            const Machine& machine);
+                                            const Machine& machine, bool specular = false);
 
 }  // namespace walr

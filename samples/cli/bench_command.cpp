@@ -34,15 +34,29 @@ struct BenchArguments {
   std::string frames;
   SequenceOptions sequence;
   GpuDevice::Options gpu;
+  std::string light = "indirect";
   BenchOptions bench;
   bool noHtml = false;
   std::string python = "/usr/bin/python3";
 };
 
+/// @throws UsageError naming an option that specular light does not have
+void refuseWithSpecularLight(const BenchArguments& arguments) {
+  const auto refuse = [](const std::string& option) {
+    throw UsageError("--light specular cannot have " + option + ", which is of diffuse light: leave out one of them");
+  };
+  if (arguments.bench.response) refuse("--response");
+  if (arguments.bench.hardCases) refuse("--hard-cases");
+  if (!arguments.sequence.keptLight.everyPixel()) refuse("--light-rate");
+}
+
 /// Variants in the order of the command line, the baseline first.
 std::vector<Variant> chosenVariants(const BenchArguments& arguments) {
   try {
     std::vector<Variant> variants = parseMethods(arguments.methods);
+    if (arguments.methods == "all" && arguments.sequence.light.onlySpecular()) {
+      std::erase_if(variants, [](const Variant& variant) { return !makeVariant(variant)->takesSpecularLight(); });
+    }
     for (const std::string& text : arguments.variants) variants.push_back(parseVariant(text));
     return withBaseline(std::move(variants));
   } catch (const std::invalid_argument& error) {
@@ -76,6 +90,10 @@ void requireUsable(const std::vector<Variant>& variants, const std::vector<Named
 void runBench(BenchArguments& arguments, const std::string& command) {
   if (arguments.sequences.empty() && !arguments.bench.response && !arguments.bench.hardCases) {
     throw UsageError("nothing to measure: give --sequences DIR..., --response or --hard-cases");
+  }
+  if (arguments.light == "specular") {
+    refuseWithSpecularLight(arguments);
+    arguments.sequence.light = {.indirect = false, .specular = SpecularWish::Denoised};
   }
   arguments.bench.variants = chosenVariants(arguments);
   refuseOutputIntoInput(arguments);
@@ -117,8 +135,16 @@ void registerBench(CLI::App& program) {
       ->required()
       ->type_name("DIR");
   command
+      ->add_option(
+          "--light", arguments->light,
+          "Light that is denoised and judged: diffuse indirect light, or specular light, whose errors are also "
+          "told by roughness")
+      ->check(CLI::IsMember({"indirect", "specular"}))
+      ->option_text("indirect|specular=indirect");
+  command
       ->add_option("--methods", arguments->methods,
-                   "METHOD or METHOD:PRESET, separated by commas, or 'all'. walr is always included, because times are "
+                   "METHOD or METHOD:PRESET, separated by commas, or 'all' that take the light. walr is always "
+                   "included, because times are "
                    "given as ratios to it")
       ->type_name("LIST|all")
       ->capture_default_str();

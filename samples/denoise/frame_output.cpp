@@ -51,22 +51,11 @@ LightErrors errorsOf(const Image& denoised, const Image& noisy, const Image& ref
 }
 
 /// RMSE of denoised specular light in each class of roughness.
-ErrorsByRoughness errorsByRoughness(const Image& denoised, const Frame& frame) {
-  ErrorsByRoughness errors;
+FiguresByRoughness errorsByRoughness(const Image& denoised, const Frame& frame) {
   const Image& reference = referenceOf(frame).specular;
-  if (denoised.empty() || reference.empty()) return errors;
+  if (denoised.empty() || reference.empty()) return {};
   const PixelMask mask = diffuseMask(frame.specularAlbedo, frame.normal, frame.depth, kSkyDepth, reference);
-  const DisplayedPair pair = display(denoised, reference, mask);
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    PixelMask ofClass = mask;
-    for (std::size_t p = 0; p < mask.size(); ++p) {
-      const float roughness = frame.roughness.pixel(p)[0];
-      const bool below = roughness < kRoughnessBounds.at(i + 1) || i + 1 == errors.size();
-      if (!(roughness >= kRoughnessBounds.at(i) && below)) ofClass[p] = 0;
-    }
-    errors.at(i) = rmseOf(pair, ofClass);
-  }
-  return errors;
+  return rmseByRoughness(display(denoised, reference, mask), mask, frame.roughness);
 }
 
 }  // namespace

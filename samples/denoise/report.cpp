@@ -153,7 +153,7 @@ void printCounters(std::ostream& stream, const std::vector<FrameReport>& frames)
   }
 }
 
-void printRoughness(std::ostream& stream, const ErrorsByRoughness& errors) {
+void printRoughness(std::ostream& stream, const FiguresByRoughness& errors) {
   stream << "Mean RMSE of the specular light by linear roughness:";
   for (std::size_t i = 0; i < errors.size(); ++i) {
     stream << (i > 0 ? ", " : " ") << kRoughnessBounds.at(i) << " to " << kRoughnessBounds.at(i + 1) << ' '

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "framegraph/declare/graph.h"
+#include "samples/denoise/roughness_classes.h"
 #include "samples/metrics/metrics.h"
 
 namespace walr {
@@ -29,12 +29,6 @@ struct LightErrors {
   std::optional<double> referenceNoise;
 };
 
-/// Bounds of the classes of linear roughness by which errors of specular light are told apart. A class includes its
-/// lower bound, and the last one also its upper bound.
-inline constexpr std::array kRoughnessBounds{0.0F, 0.1F, 0.2F, 0.3F, 0.4F, 0.6F, 1.0F};
-/// RMSE of each class; absent without a pixel.
-using ErrorsByRoughness = std::array<std::optional<double>, kRoughnessBounds.size() - 1>;
-
 /// Measurements of one frame.
 struct FrameReport {
   int frame = 0;
@@ -43,7 +37,7 @@ struct FrameReport {
   LightErrors indirect;
   LightErrors direct;
   LightErrors specular;
-  ErrorsByRoughness byRoughness;       ///< Of the denoised specular light.
+  FiguresByRoughness byRoughness;      ///< RMSE of the denoised specular light.
   std::size_t nonFiniteOutput = 0;     ///< Number of non-finite values in the result.
   std::vector<CounterValue> counters;  ///< The same names in every frame; empty unless counters were requested.
 };

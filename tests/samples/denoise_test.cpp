@@ -257,7 +257,7 @@ TEST_F(FrameOutputTest, TellsErrorsOfSpecularLightByRoughness) {
   pixel(1, 0.59F, 1.0F);
   pixel(2, 1.0F, 0.0F);
   pixel(3, kNan, 0.0F);
-  EXPECT_EQ(measure(denoised).byRoughness, (ErrorsByRoughness{0.0, 0.25, std::nullopt, std::nullopt, 0.0, 0.5}));
+  EXPECT_EQ(measure(denoised).byRoughness, (FiguresByRoughness{0.0, 0.25, std::nullopt, std::nullopt, 0.0, 0.5}));
 }
 
 DenoiseReport exampleReport() {

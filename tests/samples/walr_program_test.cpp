@@ -109,6 +109,26 @@ TEST_F(ProgramTest, DenoisesSpecularLight) {
   expectFinite(readPlane(output / "denoised_0011.exr", "Specular"));
   EXPECT_TRUE(fs::exists(output / "view_reflection-motion_0011.exr"));
 
+  const fs::path compared = directory.path() / "compared";
+  const auto bench = [&](std::initializer_list<std::string> more) {
+    std::vector<std::string> arguments = {"bench",   "--sequences", input.string(), "--output", compared.string(),
+                                          "--light", "specular",    "--repeat",     "0"};
+    arguments.insert(arguments.end(), more);
+    return walr(arguments);
+  };
+  expectFailure(bench({"--response"}), kUsage, {"--light specular", "--response"});
+  expectFailure(bench({"--methods", "bmfr"}), kUsage, {"'bmfr'", "diffuse light only", "--methods"});
+  expectSuccess(bench({"--methods", "none"}));
+  EXPECT_EQ(test::schemaTroubles("samples/bench/bench.schema.json", compared / "bench.json"), "");
+  const auto sequence = nlohmann::json::parse(test::readText(compared / "bench.json"))["sequences"][0];
+  const auto judged = sequence["runs"][0]["frames"][3];
+  EXPECT_EQ(judged["rmse"], last["specular"]["rmse"]);
+  EXPECT_EQ(judged["rmse_by_roughness"], last["specular"]["rmse_by_roughness"]);
+  EXPECT_EQ(sequence["runs"][1]["frames"][3]["rmse"], last["specular"]["noisy"]["rmse"]);
+  const auto noise = sequence["frames"][3]["reference_noise_by_roughness"];
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(noise[i].is_null(), judged["rmse_by_roughness"][i].is_null()) << i;
+  EXPECT_NE(test::readText(compared / "report.html").find(".6 to 1"), std::string::npos);
+
   expectFailure(denoise({"--light", "specular", "--method", "walr_paper"}), kUsage,
                 {"'walr_paper'", "diffuse light only", "accumulate"});
   expectFailure(denoise({"--light", "specular", "--composite"}), kUsage, {"--composite", "--light all"});
