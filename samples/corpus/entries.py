@@ -39,6 +39,7 @@ class Entry:
     held_back: bool = False  # No sweep may look at it; it is reported apart.
     camera: str = ""  # The first one if empty.
     seed: int = 0  # Of the noisy frames.
+    specular: bool = False  # Materials reflect, and specular light is judged.
 
     @property
     def frames(self):
@@ -58,7 +59,7 @@ class Entry:
         """What the references depend on. Noisy frames of other seeds and numbers of samples share them."""
         return {"scene": self.scene.name, "contents": hashlib.sha256(self.scene.read_bytes()).hexdigest(), "size": list(self.size),
                 "judged": list(self.judged), "one_square_in": self.one_square_in, "reference_samples": self.reference_samples,
-                "camera": self.camera}
+                "camera": self.camera, **({"specular": True} if self.specular else {})}
 
     def settings(self):
         """What the frames of the sequence depend on, without the renderer."""
@@ -82,7 +83,10 @@ class Entry:
         """The options of `walr render`."""
         return self.noisy_options(self.frames) + [
             "--reference-spp", str(self.reference_samples), "--reference-frames", "{}-{}".format(*self.judged),
-            "--reference-pixel", "area", "--reference-one-square-in", str(self.one_square_in)]
+            "--reference-pixel", "area", "--reference-one-square-in", str(self.one_square_in), *self.light_options()]
+
+    def light_options(self):
+        return ["--specular"] if self.specular else []
 
 
 def key(settings, renderer):

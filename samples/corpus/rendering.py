@@ -47,7 +47,7 @@ class Cache:
         return hashlib.sha256(pathlib.Path(self.walr).read_bytes()).hexdigest()
 
     def version(self, entry):
-        view = entry.scene, entry.camera
+        view = entry.scene, entry.camera, *entry.light_options()
         if view not in self.versions:
             self.versions[view] = renderer_version(self.walr, *view)
         return self.versions[view]

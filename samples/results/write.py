@@ -8,8 +8,8 @@
     write.py costs FOLDER           records only the bytes and memory of these methods, after a change of no result
     write.py gpu FOLDER             records the times in FOLDER/gpu_report.json
 
-Each of the last four then writes everything anew. figures.py and samples/corpus/rates.py record what they measure themselves. Plots
-need matplotlib.
+Each of the last four then writes everything anew. figures.py, reflections.py and samples/corpus/rates.py record what they measure
+themselves. Plots need matplotlib.
 Estimated GPU times come from samples/estimate/shader_figures.json, which `cmake --build build --target update_costs` writes.
 """
 import pathlib
@@ -25,6 +25,7 @@ import gpu_page
 import index_page
 import rates_page
 import records
+import reflections_page
 
 PROJECT = HERE.parents[1]
 README, GUIDE = PROJECT / "README.md", PROJECT / "integration" / "docs" / "advanced.md"
@@ -54,16 +55,17 @@ def first_run(kept):
 
 def documents():
     """Text of every document by its file."""
-    cycles, gpu, rates = (records.load(name) for name in ("cycles", "gpu", "rates"))
+    cycles, gpu, rates, reflections = (records.load(name) for name in ("cycles", "gpu", "rates", "reflections"))
     remarks, kept = records.load("places"), runs()
     heights, first = list(kept.values()), first_run(kept)
     return {README: replaced(README, figures_page.readme_part(first, gpu)),
             GUIDE: replaced(GUIDE, rates_page.primary_hits_table(rates["ratios"])),
-            HERE / "README.md": index_page.page(heights, first, cycles, gpu, rates),
+            HERE / "README.md": index_page.page(heights, first, cycles, gpu, rates, reflections),
             HERE / "METHODS.md": figures_page.page(first, gpu),
             HERE / "CYCLES.md": cycles_page.page(cycles, gpu),
             HERE / "GPU.md": gpu_page.page(gpu),
             HERE / "RATES.md": rates_page.page(rates),
+            HERE / "REFLECTIONS.md": reflections_page.page(reflections),
             **{HERE / f"CORPUS_{name}.md": corpus_page.page(run, f"data/corpus_{name}.json", f"images/places_{name}.webp", remarks[name])
                for name, run in kept.items()}}
 
@@ -97,7 +99,7 @@ def main(arguments):
         records.record_bench(*arguments)
         if arguments[0] == "cycles":
             import plots
-            plots.crops(arguments[1])
+            plots.crops(arguments[1], "crops.png", plots.CYCLES)
     elif arguments:
         sys.exit(__doc__)
     write()

@@ -47,9 +47,13 @@ class Check(unittest.TestCase):
         def rate(kept):
             kept["ratios"]["4, 4 hits"]["walr"] = [0.5, 0.4, 0.6]
 
+        def mirror(kept):
+            kept["sequences"]["gloss_216"]["methods"]["svgf"]["by_roughness"][0] = 0.5
+
         pages = "samples/results/"
         self.assertEqual(altered("gpu", time), {"README.md", pages + "README.md", pages + "METHODS.md", pages + "CYCLES.md", pages + "GPU.md"})
         self.assertEqual(altered("corpus_1080", error), {pages + "README.md", pages + "CORPUS_1080.md"})
+        self.assertEqual(altered("reflections", mirror), {pages + "REFLECTIONS.md"})
         self.assertEqual(altered("rates", rate), {"integration/docs/advanced.md", pages + "RATES.md"})
 
     def test_a_remark_on_a_place_that_is_no_longer_among_the_worst_is_found(self):

@@ -64,11 +64,13 @@ def rates_section(rates):
             table(["rays per pixel", "`walr`", "`flr`", "`bmfr`"], rows) + "\n![RMSE against rays per pixel](images/rates.png)\n")
 
 
-def measured_section(records, cycles, gpu, rates):
+def measured_section(records, cycles, gpu, rates, reflections):
     """What was measured, when, at which commit, and the commands."""
     runs = [(f"[errors at {corpus_page.lines_of(k)} lines](CORPUS_{corpus_page.lines_of(k)}.md)",
              f"{len(k['entries'])} sequences of `walr render`", k, corpus_page.command(k)) for k in records]
-    runs += [("[errors by rays per pixel](RATES.md)", f"{len(rates['scenes'])} scenes at 216 lines, 1/9 to 64 rays", rates,
+    runs += [("[errors of reflections](REFLECTIONS.md)", f"{len(reflections['sequences'])} sequences of `walr render`", reflections,
+              "samples/results/reflections.py"),
+             ("[errors by rays per pixel](RATES.md)", f"{len(rates['scenes'])} scenes at 216 lines, 1/9 to 64 rays", rates,
               "samples/corpus/rates.py"),
              ("[methods on frames of Cycles](CYCLES.md)", f"{len(cycles['noise'])} sequences at 216 lines, not in this repository", cycles,
               cycles["command"]),
@@ -81,10 +83,10 @@ def measured_section(records, cycles, gpu, rates):
             "\n\n".join(indented(command) for *_, command in runs) + "\n")
 
 
-def page(records, first, cycles, gpu, rates):
+def page(records, first, cycles, gpu, rates, reflections):
     """records: the runs of the corpus, by height. first: the one behind README.md."""
     return ("# Results\n\n" + filled("Written by `samples/results/write.py` from the figures in `data/`. What each method does: "
                                      "[passes](../../passes/README.md). How errors are made: [corpus](../docs/corpus.md) and "
                                      "[bench](../docs/bench.md). What was tried: [what we learnt](../../passes/LEARNT.md).") + "\n" +
             "\n".join([errors_section(records[-1]), sizes_section(records), speed_section(first, gpu), rates_section(rates),
-                       measured_section(records, cycles, gpu, rates)]))
+                       measured_section(records, cycles, gpu, rates, reflections)]))

@@ -13,7 +13,9 @@ from report import displayed, exposure, hardest_places, signed_colours
 from report_data import Bench
 from report_plots import COLOURS, error_axes, plt
 
-CROPPED = ("walr", "walr_paper", "bmfr", "svgf", "flr", "flnr:full", "joint_bilateral")
+CYCLES = ("walr", "walr_paper", "bmfr", "svgf", "flr", "flnr:full", "joint_bilateral")
+REFLECTIONS = ("accumulate", "svgf", "walr")
+"""Methods whose pictures are shown."""
 
 
 def save(figure, name, dpi, **options):
@@ -71,17 +73,17 @@ def rates(kept):
     save(figure, "rates.png", 90)
 
 
-def crops(folder):
+def crops(folder, name, shown, count=2):
     """The places of largest error in the last stored frame of each sequence of `walr bench`, and the change of the error there along
-    motion."""
+    motion. shown: methods."""
     bench, rows = Bench(folder), []
     for sequence, facts in bench.sequences.items():
         frame = max(facts["picture_frames"])
-        pictures = {n: bench.picture(sequence, n, frame) for n in ["_reference", "_noisy", *CROPPED]}
-        changes = {n: bench.change(sequence, n, frame)[:, :, 0] for n in CROPPED}
+        pictures = {n: bench.picture(sequence, n, frame) for n in ["_reference", "_noisy", *shown]}
+        changes = {n: bench.change(sequence, n, frame)[:, :, 0] for n in shown}
         exposed = exposure(pictures["_reference"])
         top = float(np.nanpercentile(np.abs(list(changes.values())), 99.5))
-        places, size = hardest_places(bench, sequence, frame, 2)
+        places, size = hardest_places(bench, sequence, frame, count)
         for x, y in places:
             place = np.s_[y:y + size, x:x + size]
             rows.append({n: displayed(p[place], exposed) for n, p in pictures.items()})
@@ -96,4 +98,4 @@ def crops(folder):
             if index == 0:
                 cell.set_title(name.removeprefix("_"), fontsize=8)
     figure.subplots_adjust(0.005, 0.005, 0.995, 0.975, wspace=0.04, hspace=0.04)
-    save(figure, "crops.png", 100)
+    save(figure, name, 100)

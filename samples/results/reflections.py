@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""The figures of REFLECTIONS.md, from scenes of this repository alone: renders them with specular light, denoises that with all methods
+that take it, scores the results by roughness, and writes the page and its picture.
+
+    reflections.py [--cache DIR] [--walr FILE]
+
+Takes about half an hour on two idle cores, tells what is left, and goes on where it was interrupted. Needs numpy, Pillow and
+matplotlib (Debian: python3-matplotlib).
+"""
+import argparse
+import datetime
+import json
+import pathlib
+
+import write
+import corpus
+import entries
+import plots
+import records
+import rendering
+
+LOW, HIGH = (384, 216), (960, 540)
+
+
+def sequence(name, scene, size, **settings):
+    """An entry whose last frames are judged: two of them in few squares where pictures are large."""
+    judged, squares, samples = ((15, 19), 1, 128) if size == LOW else ((18, 19), 6 if size == HIGH else 24, 96)
+    return entries.built_in(name, scene, size, judged, squares, reference_samples=samples, specular=True, **settings)
+
+
+def chosen():
+    return [sequence("gloss_216", "gloss", LOW), sequence("gloss_216_4", "gloss", LOW, samples=4),
+            sequence("gloss_still_216", "gloss", LOW, camera="mirror"), sequence("gloss_540", "gloss", HIGH),
+            sequence("gloss_1080", "gloss", entries.FULL_HD), sequence("kitchen_gloss_216", "kitchen_gloss", LOW, camera="floor"),
+            sequence("kitchen_gloss_540", "kitchen_gloss", HIGH, camera="floor"), sequence("mirrors_216", "mirrors", LOW)]
+
+
+def kept_of(run):
+    figures = {metric: records.rounded(run["mean"][metric]) for metric in records.FIGURES}
+    judged = [frame["rmse_by_roughness"] for frame in run["frames"] if "rmse_by_roughness" in frame]
+    return {**figures, "by_roughness": means(judged)}
+
+
+def means(rows):
+    """Means of lists of figures; None where a figure is not known in every list."""
+    return [None if None in values else records.rounded(records.mean(values)) for values in zip(*rows)]
+
+
+def record(bench, found):
+    """Keeps the figures of `walr bench`. found: the entries by the names of their sequences."""
+    data = json.loads((bench / "bench.json").read_text(encoding="utf-8"))
+    kept = {"date": datetime.date.today().isoformat(), "commit": data["commit"][:12], "sequences": {}}
+    for measured in data["sequences"]:
+        entry = found[measured["name"]]
+        frames = [frame for frame in measured["frames"] if frame["reference_noise"] is not None]
+        kept["sequences"][entry.name] = {
+            "scene": entry.scene.stem, "camera": entry.camera, "size": list(entry.size), "samples": entry.samples,
+            "noise": records.rounded(records.mean(frame["reference_noise"] for frame in frames)),
+            "noise_by_roughness": means([frame["reference_noise_by_roughness"] for frame in frames]),
+            "methods": {run["variant"]: kept_of(run) for run in measured["runs"]}}
+    records.save("reflections", kept, 3)
+
+
+def measure(cache, walr):
+    cache = rendering.Cache(cache, walr)
+    rendering.render_all(chosen(), cache, lambda text: print(text, flush=True))
+    found = {cache.sequence(entry).name: entry for entry in chosen()}
+    bench = cache.folder / "reflections"
+    print("comparing the methods; about a third of the time is left", flush=True)
+    entries.run_walr(walr, "bench", "--light", "specular", "--sequences", *map(cache.sequence, chosen()), "--output", bench,
+                     "--repeat", "0", "--no-html")
+    record(bench, found)
+    plots.crops(bench, "reflections.webp", plots.REFLECTIONS, 1)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cache", default=corpus.default_cache(), help="folder for frames and results; default: %(default)s")
+    parser.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
+                        default=entries.PROJECT / "build" / "bin" / "walr")
+    arguments = parser.parse_args()
+    if not arguments.walr.exists():
+        parser.error(f"there is no program {arguments.walr}: build it (cmake --build build --target walr), or name one with --walr")
+    measure(arguments.cache, arguments.walr)
+    write.main([])
+
+
+if __name__ == "__main__":
+    main()
