@@ -154,10 +154,14 @@ class Plugin {
   WalrRegisterPlugin register_ = nullptr;
 };
 
+/// All cases of a suite share the host, because opening it and creating its pipelines takes longer than most cases.
+/// After a failure the next case gets a new one. What the layer tells when the device is destroyed, for instance of
+/// objects that a case has left behind, fails the failed case or else the suite.
 class PluginTest : public testing::Test {
  protected:
+  static void TearDownTestSuite() { closeHost(); }
   void SetUp() override {
-    openHost();
+    if (host.device == VK_NULL_HANDLE) openHost();
     const WalrRegistryHost registry{sizeof(WalrRegistryHost), 0, &registered, takeApi, takeType};
     ASSERT_EQ(plugin.registerWith(&registry), WALR_SUCCESS);
     device.struct_size = sizeof(device);
@@ -167,7 +171,10 @@ class PluginTest : public testing::Test {
     device.device = host.device;
     device.get_instance_proc_addr = vkGetInstanceProcAddr;
   }
-  void TearDown() override { EXPECT_EQ(host_close(&host), 0) << "validation messages"; }
+  void TearDown() override {
+    EXPECT_EQ(std::exchange(host.messages, 0), 0) << "validation messages";
+    if (HasFailure()) closeHost();
+  }
 
   virtual void openHost() { host_open(&host); }
 
@@ -217,10 +224,17 @@ class PluginTest : public testing::Test {
   template <typename Way>
   void expectTheOpaqueCallAtSizes(std::span<const Size> sizes, std::span<const std::size_t> turns);
 
+  static inline Host host{};
   Plugin plugin;
-  Host host{};
   WalrDevice device{};
   Registered registered;
+
+ private:
+  static void closeHost() {
+    if (host.device == VK_NULL_HANDLE) return;
+    EXPECT_EQ(host_close(&host), 0) << "validation messages";
+    host = {};
+  }
 };
 
 inline WalrCamera cameraAt(float x) {

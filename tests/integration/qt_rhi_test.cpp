@@ -174,7 +174,10 @@ class QtRhiTest : public ConformanceTest {
     static char* arguments[] = {name, nullptr};
     application = std::make_unique<QGuiApplication>(count, arguments);
   }
-  static void TearDownTestSuite() { application.reset(); }
+  static void TearDownTestSuite() {
+    PluginTest::TearDownTestSuite();
+    application.reset();
+  }
 
   void openHost() override {
     // QRhi queries functions of surfaces although none is created.
