@@ -24,7 +24,7 @@ using reference::Guide;
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(60, 40);  // Not a multiple of the tiles.
+constexpr glm::ivec2 kSize(68, 40);  // Not a multiple of the tiles.
 const glm::ivec2 kTiles = (kSize - 1) / kAntilagTile + 1;
 
 class AntialiasingShortening : public fg::test::GpuTest {};

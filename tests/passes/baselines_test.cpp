@@ -93,7 +93,7 @@ TEST_P(DenoiserTest, KeepsConstantLightAndIgnoresPixelsWithoutASample) {
 }
 
 TEST_P(DenoiserTest, IsFiniteForAnyInputAndSize) {
-  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(3, 5), glm::ivec2(17, 13), kSize}) {
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(3, 5), glm::ivec2(17, 19), kSize}) {
     // Without stages that remember, a single pixel is what it is in the first frame.
     if (GetParam().spatialOnly && size == glm::ivec2(1, 1)) continue;
     const std::unique_ptr<Denoiser> denoiser = makeCase();

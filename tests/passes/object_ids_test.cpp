@@ -22,7 +22,7 @@ using reference::Guide;
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(60, 40);  // The wall has 8 pixels per unit, so the panel moves by 4 pixels a frame.
+constexpr glm::ivec2 kSize(68, 40);  // The wall has 8 pixels per unit, so the panel moves by 4 pixels a frame.
 constexpr std::uint32_t kNobody = 0xffffffffU;
 
 /// A frame of the panel; the camera moves by less than a pixel.

@@ -21,7 +21,7 @@ namespace walr::gpu_denoiser_test {
 namespace {
 
 constexpr int kWidth = 40;
-constexpr int kHeight = 24;
+constexpr int kHeight = 36;
 constexpr fg::Extent kExtent{kWidth, kHeight};
 
 class GpuDenoiserTest : public testing::Test {

@@ -74,11 +74,14 @@ LightMethod lightMethod(const Choice& choice, Light light) {
 
 class LightDenoisersTest : public testing::TestWithParam<Choice> {
  protected:
-  void TearDown() override { EXPECT_NO_THROW(gpu.refuseMessages()); }
+  // One device for all cases: the driver of tests keeps its pipelines, and creating them takes longer than the frames.
+  static void SetUpTestSuite() { gpu.emplace(GpuDevice::Options{.device = {}, .validation = true}); }
+  static void TearDownTestSuite() { gpu.reset(); }
+  void TearDown() override { EXPECT_NO_THROW(gpu->refuseMessages()); }
 
   [[nodiscard]] std::vector<DenoisedFrame> denoise(std::span<const LightMethod> lights) const {
     const Layout& layout = projectLayout();
-    LightDenoisers denoiser(gpu, lights, kExtent, layout, {}, 2, true);
+    LightDenoisers denoiser(*gpu, lights, kExtent, layout, {}, 2, true);
     std::vector<DenoisedFrame> results;
     for (Frame& frame : frames()) {
       if (denoiser.full()) results.push_back(*denoiser.finish());
@@ -93,7 +96,7 @@ class LightDenoisersTest : public testing::TestWithParam<Choice> {
     return denoise(methods);
   }
 
-  GpuDevice gpu{{.device = {}, .validation = true}};
+  static inline std::optional<GpuDevice> gpu;
 };
 
 TEST_P(LightDenoisersTest, BothLightsAreThoseOfDenoisersOfTheirOwn) {
