@@ -535,7 +535,7 @@ TEST_F(ProgramTest, TheReferencesDirectLightIsNotDenoised) {
   files.write(0, 0);
   expectFailure(denoise({"--composite", "--direct-light", "reference", "--light", "both"}), kUsage,
                 {"--direct-light reference", "--light both", "leave out one"});
-  const ProcessResult result = denoise({"--composite", "--direct-light", "reference"});
+  const ProcessResult result = denoise({"--composite", "--direct-light", "reference", "--method", "none"});
   expectSuccess(result);
   EXPECT_NE(result.out.find("light: indirect\n"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("direct light is that of the reference"), std::string::npos) << result.out;
@@ -545,7 +545,7 @@ TEST_F(ProgramTest, TheReferencesDirectLightIsNotDenoised) {
 
 TEST_F(ProgramTest, SaysWhereACutIs) {
   files.write(0, 3);
-  const ProcessResult result = denoise({"--cut", "2"});
+  const ProcessResult result = denoise({"--cut", "2", "--method", "none"});
   expectSuccess(result);
   EXPECT_NE(result.out.find("history is reset at frame 2"), std::string::npos) << result.out;
 }
