@@ -33,7 +33,8 @@ std::shared_ptr<Pipelines> makePipelines(const DeviceContext& device, const Exec
                                          const std::shared_ptr<Pipelines>& before) {
   const std::shared_ptr<SharedObjects>& shared = options.shared.objects;
   if (shared != nullptr) return {shared, &shared->pipelines()};
-  return before != nullptr ? before : std::make_shared<Pipelines>(device, options.pipelineCache);
+  if (before != nullptr) return before;
+  return options.pipelines != nullptr ? options.pipelines : std::make_shared<Pipelines>(device, options.pipelineCache);
 }
 
 /// A host's image or buffer that is bound to an import.

@@ -29,8 +29,11 @@ struct ExecutorOptions {
   /// Used to create pipelines, for instance `PipelineCache::handle`; optional. Must outlive the executor and those that
   /// name it as their predecessor.
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+  /// Pipelines that executors of the device share otherwise than as members or successors, and to which this one adds;
+  /// optional. `pipelineCache` then does not count.
+  std::shared_ptr<Pipelines> pipelines = nullptr;
   /// What this executor shares with others whose frames come before and after its own on one queue; optional. Its
-  /// pipelines count, and not `pipelineCache`.
+  /// pipelines count, and neither `pipelines` nor `pipelineCache`.
   Membership shared = {};
   /// An executor of the same device that this one replaces, of any graph. Pipelines are shared, so only those for
   /// new shaders and specialization constants are created, in the predecessor's `pipelineCache`. The first frame of

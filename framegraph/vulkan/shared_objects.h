@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "framegraph/vulkan/memory.h"
@@ -18,11 +19,14 @@ class SharedObjects {
   /// @param device must outlive this and every executor that shares it
   /// @param cache  see ExecutorOptions::pipelineCache
   explicit SharedObjects(const DeviceContext& device, VkPipelineCache cache = VK_NULL_HANDLE)
-      : device_(&device), pipelines_(device, cache) {}
+      : SharedObjects(device, std::make_shared<Pipelines>(device, cache)) {}
+  /// @param pipelines  of the device, and shared with executors that share nothing else
+  SharedObjects(const DeviceContext& device, std::shared_ptr<Pipelines> pipelines)
+      : device_(&device), pipelines_(std::move(pipelines)) {}
   SharedObjects(const SharedObjects&) = delete;
   SharedObjects& operator=(const SharedObjects&) = delete;
 
-  [[nodiscard]] Pipelines& pipelines() { return pipelines_; }
+  [[nodiscard]] Pipelines& pipelines() { return *pipelines_; }
   /// Number of a further member. Executors of one member replace one another and never share memory, so that an
   /// allocation of the member's last executor can be freed.
   std::uint32_t addMember() { return members_++; }
@@ -38,7 +42,7 @@ class SharedObjects {
   };
 
   const DeviceContext* device_;
-  Pipelines pipelines_;
+  std::shared_ptr<Pipelines> pipelines_;
   std::uint32_t members_ = 0;
   std::vector<Block> blocks_;
 };

@@ -9,7 +9,7 @@ fg::vk::ExecutorOptions optionsOf(const GpuDevice& gpu, std::uint32_t framesInFl
                                   const fg::vk::Membership& shared) {
   return {.framesInFlight = framesInFlight,
           .timestamps = gpu.device().context().timestampBits > 0,
-          .pipelineCache = gpu.pipelineCache() != nullptr ? gpu.pipelineCache()->handle() : VK_NULL_HANDLE,
+          .pipelines = gpu.pipelines(),
           .shared = shared,
           .predecessor = predecessor != nullptr ? &predecessor->executor() : nullptr};
 }

@@ -21,7 +21,7 @@ namespace walr {
 /// A frame graph on a device: its plan, and the executor that runs it.
 class DeviceGraph {
  public:
-  /// Measures the times of passes if the device has timestamps. Takes pipelines from the device's cache.
+  /// Measures the times of passes if the device has timestamps. Takes pipelines from the device.
   /// @param gpu          must outlive this
   /// @param predecessor  graph whose histories and pipelines are taken over where they fit; may be null. See
   ///                     `fg::vk::ExecutorOptions::predecessor`, also for how long it must live

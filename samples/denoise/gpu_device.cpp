@@ -47,11 +47,14 @@ GpuDevice::GpuDevice(const Options& options)
       missingForRayQueries_(missingFor(instance_, physical_, options.rayQueries)),
       device_(instance_, physical_, extensionsFor(options.deviceExtensions, missingForRayQueries_.empty()),
               missingForRayQueries_.empty() ? RayQueryFeatures().chain() : nullptr) {
-  if (!options.keepPipelines) return;
-  const std::filesystem::path file = pipelineCacheFile(device_.context());
-  std::error_code ignored;  // Without the folder, saving fails, which the destructor ignores.
-  if (!file.empty()) std::filesystem::create_directories(file.parent_path(), ignored);
-  pipelineCache_ = std::make_unique<fg::vk::PipelineCache>(device_.context(), file);
+  if (options.keepPipelines) {
+    const std::filesystem::path file = pipelineCacheFile(device_.context());
+    std::error_code ignored;  // Without the folder, saving fails, which the destructor ignores.
+    if (!file.empty()) std::filesystem::create_directories(file.parent_path(), ignored);
+    pipelineCache_ = std::make_unique<fg::vk::PipelineCache>(device_.context(), file);
+  }
+  const VkPipelineCache cache = pipelineCache_ != nullptr ? pipelineCache_->handle() : VK_NULL_HANDLE;
+  pipelines_ = std::make_shared<fg::vk::Pipelines>(device_.context(), cache);
 }
 
 GpuDevice::~GpuDevice() {

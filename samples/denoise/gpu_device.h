@@ -45,8 +45,10 @@ class GpuDevice {
   [[nodiscard]] const fg::vk::Device& device() const { return device_; }
   [[nodiscard]] const fg::vk::InstanceFunctions& functions() const { return instance_.functions(); }
   [[nodiscard]] VkInstance instance() const { return instance_.handle(); }
-  /// The cache of compiled pipelines that executors read and extend; null unless pipelines are stored.
+  /// The cache of compiled pipelines that is stored; null unless pipelines are stored.
   [[nodiscard]] fg::vk::PipelineCache* pipelineCache() const { return pipelineCache_.get(); }
+  /// The pipelines of all graphs on this device, so that a method that comes again is there at once.
+  [[nodiscard]] const std::shared_ptr<fg::vk::Pipelines>& pipelines() const { return pipelines_; }
 
   /// What the device lacks for ray queries; empty if they are enabled.
   [[nodiscard]] const std::string& missingForRayQueries() const { return missingForRayQueries_; }
@@ -63,6 +65,7 @@ class GpuDevice {
   std::string missingForRayQueries_;
   fg::vk::Device device_;
   std::unique_ptr<fg::vk::PipelineCache> pipelineCache_;
+  std::shared_ptr<fg::vk::Pipelines> pipelines_;
 };
 
 /// @throws std::runtime_error with the first of the validation layer's messages, if there is one

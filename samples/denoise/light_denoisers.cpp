@@ -28,9 +28,7 @@ std::vector<Denoiser*> methodsOf(std::span<const LightMethod> lights) {
 LightDenoisers::LightDenoisers(const GpuDevice& device, std::span<const LightMethod> lights, fg::Extent extent,
                                const Layout& layout, const InspectionWish& wanted, std::uint32_t framesInFlight,
                                bool objectIds)
-    : shared_(std::make_shared<fg::vk::SharedObjects>(device.device().context(), device.pipelineCache() != nullptr
-                                                                                     ? device.pipelineCache()->handle()
-                                                                                     : VK_NULL_HANDLE)),
+    : shared_(std::make_shared<fg::vk::SharedObjects>(device.device().context(), device.pipelines())),
       light_(lights.front().light),
       together_(shareGuides(diffuseOf(lights))),
       first_(device, methodsOf(lights.first(together_ ? 2 : 1)), extent, layout, wanted, framesInFlight, objectIds,

@@ -102,6 +102,7 @@ constexpr const char* kBrighter = "imageStore(outImage, p, vec4(2.0 * light, 1.0
 TEST_F(ShaderReloaderTest, ThePictureFollowsTheSourceAndTheHistoryGoesOn) {
   Host usual(gpu);
   Host changing(gpu);
+  const std::vector<std::uint32_t> first = Host(gpu).frame();
   EXPECT_EQ(changing.poll(), 0U);
   for (int i = 0; i < 6; ++i) {
     SCOPED_TRACE(i);
@@ -109,6 +110,7 @@ TEST_F(ShaderReloaderTest, ThePictureFollowsTheSourceAndTheHistoryGoesOn) {
       changing.sources().replace(kShader, kResult, kBrighter);
       EXPECT_EQ(changing.poll(), 1U);
       fg::test::expectContains(changing.said(), {"shader 'temporal_antialiasing", "is reloaded"});
+      EXPECT_NE(Host(gpu).frame(), first) << "a graph that is declared later uses it, too";
     }
     if (i == 4) {
       changing.sources().replace(kShader, kBrighter, kResult);
