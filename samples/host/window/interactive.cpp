@@ -6,7 +6,6 @@
 #include <deque>
 #include <future>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #define GLFW_INCLUDE_VULKAN
@@ -26,6 +25,9 @@ namespace {
 constexpr std::uint32_t kFramesInFlight = 2;
 // Interval at which the window is redrawn while no new frame has been traced.
 constexpr std::chrono::milliseconds kRefresh(16);
+// The same while none is being traced, either, and the user has done nothing for this time: the interface shows what it
+// showed, but for what has no event of the window's, such as a shader that was saved.
+constexpr std::chrono::milliseconds kRest(250);
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -161,7 +163,11 @@ class Show {
       startTracing();
     }
     if (!next_.valid()) {
-      std::this_thread::sleep_for(kRefresh);
+      using Clock = std::chrono::steady_clock;
+      const Clock::time_point start = Clock::now();
+      const std::chrono::duration<double> longest = start < lastInput_ + kRest ? kRefresh : kRest;
+      glfwWaitEventsTimeout(longest.count());
+      if (const Clock::time_point end = Clock::now(); end < start + longest) lastInput_ = end;
     } else if (next_.wait_for(kRefresh) == std::future_status::ready) {
       take(next_.get());
     }
@@ -242,6 +248,7 @@ class Show {
   std::optional<Presenter> presenter_;
   std::optional<std::uint32_t> lastSlot_;  // Slot of the last frame that `live_` recorded.
   std::future<HostFrame> next_;
+  std::chrono::steady_clock::time_point lastInput_;
   HostFrame frame_;
   FrameFacts facts_;
   bool traced_ = false;                       // `frame_` is of the scene that is shown.
