@@ -30,12 +30,12 @@ Tracer::Options tracingSparsely() {
 }
 
 /// A window's frame of a scene with light at one pixel of four.
-class FollowSessionTest : public testing::Test {
+class FollowSessionTest : public HostDeviceTest {
  protected:
   void SetUp() override { ASSERT_EQ(follow(GraphChange::Method), Followed::Declared); }
   void TearDown() override {
     queue.waitAll();
-    EXPECT_NO_THROW(gpu.refuseMessages());
+    HostDeviceTest::TearDown();
   }
 
   Followed follow(GraphChange change, fg::Extent extent = kExtent) {
@@ -57,7 +57,6 @@ class FollowSessionTest : public testing::Test {
     EXPECT_NE(session.refusal().find(named), std::string::npos) << session.refusal();
   }
 
-  GpuDevice gpu{{.device = "", .validation = true}};
   Tracer tracer{tracingSparsely()};
   Session session{tracer, "walr", makeDenoiser("walr"), {}, {}, {0, 9}, false};
   ShownPicture picture{gpu, kExtent};

@@ -43,10 +43,8 @@ namespace {
 // The camera starts to move in frame 4; the visible objects stand still.
 constexpr FrameRange kFrames{2, 7};
 
-class HostTest : public testing::Test {
+class HostTest : public HostDeviceTest {
  protected:
-  void TearDown() override { EXPECT_NO_THROW(gpu.refuseMessages()); }
-
   std::vector<RenderedFrame> render(const Renderer::Options& options, const std::string& method = "walr",
                                     const Tracer::Options& tracerOptions = tracing()) {
     Tracer tracer(tracerOptions);
@@ -58,8 +56,6 @@ class HostTest : public testing::Test {
     renderFrames(tracer, renderer, kFrames, request, [&](const RenderedFrame& frame) { frames.push_back(frame); });
     return frames;
   }
-
-  GpuDevice gpu{{.device = "", .validation = true}};
 };
 
 Renderer::Options readAll() {

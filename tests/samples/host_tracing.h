@@ -1,8 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include "framegraph/declare/graph.h"
+#include "samples/denoise/gpu_device.h"
 #include "samples/host/tracer.h"
 #include "samples/image/half.h"
 #include "samples/image/image.h"
@@ -19,6 +23,23 @@ inline Tracer::Options tracing(const std::string& scene = "box.gltf") {
   options.denoiseDirect = false;  // So that the composite has both lights.
   return options;
 }
+
+/// Cases on one device under synchronization validation. Its pipelines depend on nothing but their shader and its
+/// constants, so that no case needs new ones.
+class HostDeviceTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    device_ = std::make_unique<GpuDevice>(GpuDevice::Options{.device = "", .validation = true});
+  }
+  static void TearDownTestSuite() { device_.reset(); }
+  void TearDown() override { EXPECT_NO_THROW(gpu.refuseMessages()); }
+
+ private:
+  static inline std::unique_ptr<GpuDevice> device_;
+
+ protected:
+  GpuDevice& gpu = *device_;
+};
 
 /// As textures of halves hold it.
 inline Image inHalves(Image image) {

@@ -246,10 +246,6 @@ def split(host, screen):
     start(host, screen, "--method", "accumulate", "--view", "split")
 
 
-def texture(host, screen):
-    start(host, screen, "--view", "normal")
-
-
 def methods(host, screen):
     """Every method, and every preset of one method, can be chosen and gives the same image as without a window."""
     paper = "walr_paper"
@@ -439,6 +435,7 @@ def drop(host, screen):
     # Until frame 12, nothing moves in it.
     expected = other.pictures("0-0", *view)[0]
     with host.window(screen, "0-3", *view) as window:
+        window.check_panel()
         files = FileDrop(screen)
         files.drop(other.scene)
         window.must_show(expected, "the scene that was dropped onto it")
@@ -488,7 +485,7 @@ def main():
     scene = "turntable.gltf" if scenario in ("play", "resize", "resize_on_device") else "box.gltf"
     with tempfile.TemporaryDirectory() as folder, virtual_screen(folder) as screen:
         host = Host(program, pathlib.Path(scenes) / scene, pathlib.Path(folder), pathlib.Path(screenshot))
-        scenarios = {"split": split, "texture": texture, "methods": methods, "views": views,
+        scenarios = {"split": split, "methods": methods, "views": views,
                      "play": play, "refused": refused, "lint": lint, "drop": drop, "resize": resize,
                      "resize_on_device": resize_on_device}
         scenarios[scenario](host, screen)
