@@ -447,8 +447,10 @@ def drop(host, screen):
         write_png(host.screenshot, screen.rows())
 
 
-def resize(host, screen, *options):
-    """While objects, lights and camera move for 300 frames, the window changes its size and is minimised."""
+def resize(host, screen, *options, size=(80, 45)):
+    """While objects, lights and camera move for 300 frames, the window changes its size and is minimised. The size of the
+    picture is such that the frames take a software driver little longer than these changes."""
+    host.size = size
     full = host.size[0] + PANEL_WIDTH
     manager = WindowManager(screen)
     # 48 frames of the animation at 24 frames a second become 300.
@@ -476,8 +478,7 @@ def resize(host, screen, *options):
 def resize_on_device(host, screen):
     """The same with the path tracer as a pass of the graph."""
     # So few pixels and bounces that a software driver traces some frames a second.
-    host.size = (48, 28)
-    resize(host, screen, "--tracer", "gpu", "--bounces", "1")
+    resize(host, screen, "--tracer", "gpu", "--bounces", "1", size=(48, 28))
 
 
 def main():
