@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
+#include "passes/filters/lobe_filter.h"
 #include "passes/regression/window_fit.h"
 #include "passes/stage/expected_error.h"
 #include "passes/temporal/temporal_stages.h"
@@ -20,11 +20,10 @@ float wideningOf(const LightPattern& light, float power) {
 }
 
 BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t imageHeight,
-                                     const InputConventions& conventions) {
-  const LightPattern& light = conventions.light;
+                                     const LightPattern& light) {
   BlockRegressionSettings blocks = settings.blocks;
   // The share of accumulated light in a pixel is measured on this frame's sample and the history of the same pixel.
-  blocks.share.enabled = blocks.share.enabled && (light.everyPixel() || conventions.specular) && !settings.spatialOnly;
+  blocks.share.enabled = blocks.share.enabled && light.everyPixel() && !settings.spatialOnly;
   if (!settings.fitWindow) return blocks;
   const float widening = wideningOf(light, 1.0F / 6.0F);
   const auto height = static_cast<std::uint32_t>(widening * static_cast<float>(imageHeight));
@@ -48,27 +47,38 @@ GuideNeeds needsOf(const WalrSettings& settings, const TemporalPlan& plan) {
   return needs;
 }
 
-/// Guides and accumulated light of specular light.
-GuidedInput addReflectedLight(StageGraph graph, const DenoiserInputs& inputs, const WalrSettings& settings,
-                              const TemporalPlan& plan) {
+/// The method for specular light: means over lobes take the place of fits.
+fg::Texture addSpecularWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
+                            const WalrSettings& settings) {
+  TemporalAntialiasingSettings antialiasing = settings.antialiasing;
+  antialiasing.clipGamma = settings.specularClipGamma;
+  const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
+                                                        .antialiasing = antialiasing,
+                                                        .spatialOnly = settings.spatialOnly,
+                                                        .keepTaps = true});
   const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.normalHistory = false});
   const ReflectionMotion motion = addReflectionMotion(graph, inputs, guides, settings.accumulation, {}, true);
-  return {motion.blocks, addAccumulation(graph, inputs, guides, plan, motion)};
+  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, motion);
+  const fg::Texture filtered = addLobeFilter(graph,
+                                             {.frame = inputs.frame,
+                                              .depth = guides.depth,
+                                              .reflectors = motion.reflectors,
+                                              .accumulated = accumulated.lighting,
+                                              .lighting = inputs.lighting,
+                                              .antilag = accumulated.antilag,
+                                              .maxHistory = settings.accumulation.maxHistory},
+                                             filterTarget(graph, plan, output));
+  return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }
 
 }  // namespace
 
 fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const WalrSettings& settings) {
-  const bool specular = inputs.conventions.specular;
-  if (specular && !settings.blocks.share.enabled) {
-    throw std::invalid_argument(
-        "specular light needs accumulated light where it shows an image: leave blocks.residual on");
-  }
+  if (inputs.conventions.specular) return addSpecularWalr(graph, inputs, output, settings);
   TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
                                                   .antialiasing = settings.antialiasing,
-                                                  .spatialOnly = settings.spatialOnly,
-                                                  .keepTaps = specular});
-  BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions);
+                                                  .spatialOnly = settings.spatialOnly});
+  BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
   // Reconstruction with blocks.residual measures where history is too long. In the next frame, antilag then shortens
   // it, and anti-aliasing its own.
   std::optional<SteeredHistory> history;
@@ -78,8 +88,7 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
     plan.shortening = history->shortening.previous;
   }
   const auto [guides, accumulated] =
-      specular ? addReflectedLight(graph, inputs, settings, plan)
-               : addGuidesWithAccumulation(graph, inputs, settings.guides, needsOf(settings, plan), plan);
+      addGuidesWithAccumulation(graph, inputs, settings.guides, needsOf(settings, plan), plan);
   // The coarse window's power is measured (passes/LEARNT.md, "Rays, sparse light and other normals"). Without a light
   // grid every pixel has a mean.
   if (settings.fitWindow && accumulated.lightGrid) {
@@ -97,8 +106,7 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
       addBlockReconstruction(graph, inputs.frame, light, guides, fits, filterTarget(graph, plan, output), blocks);
   const fg::Texture result = addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
   const bool packed = settings.accumulation.storage == LightStorage::Packed;
-  if (!specular && plan.accumulates && packed && !accumulated.lightGrid)
-    offerExpectedError(graph, accumulated.lighting, result);
+  if (plan.accumulates && packed && !accumulated.lightGrid) offerExpectedError(graph, accumulated.lighting, result);
   return result;
 }
 

@@ -24,6 +24,7 @@ struct WalrSettings {
   bool fitWindow = true;
   TemporalAntialiasingSettings antialiasing{
       .clipGamma = 5.0F, .thresholds = kStrictThresholds, .storage = LightStorage::Packed};
+  float specularClipGamma = 2.0F;
 
   void visit(SettingVisitor& v) {
     v.visit({"spatial-only", "Filter each frame by itself, without the temporal stages", "", 0, 1,
@@ -42,12 +43,16 @@ struct WalrSettings {
     occlusion.visit(v);
     blocks.visit(v);
     antialiasing.visitAmounts(v);
+    v.visit({"antialiasing.specular-clip-gamma", "Specular light: `antialiasing.clip-gamma`", "standard deviations",
+             0.0, 1e6, "measured"},
+            specularClipGamma);
     antialiasing.visitStorage(v);
   }
 };
 
 /// The project's own method: Weighted A-Trous Linear Regression (Meunier & Harada 2022, figure 6) over blocks of
-/// pixels instead of pixels, which leaves room for depth and occlusion as features. See passes/WALR.md.
+/// pixels instead of pixels, which leaves room for depth and occlusion as features. See passes/WALR.md. Specular light
+/// is filtered by means over lobes instead: passes/SPECULAR.md.
 /// @param output     RGBA16F texture to write the result to
 /// @returns the output's new version
 /// @throws std::invalid_argument for settings that contradict each other; their ranges are the caller's to check

@@ -43,11 +43,9 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sampleIf(inputs.antilag.valid(), "antilag", inputs.antilag, inputs.lighting)
       .sample("previousStatistics", statistics.previous)
       .sample("previousAgreement", agreement.previous);
-  if (!inputs.specular) {  // Its history is not steered.
-    const fg::History innovation = graph->history("innovation", {VK_FORMAT_R8_UINT, gridExtent(pixels, 2)});
-    apply.sample("previousInnovation", innovation.previous);
-    static_cast<void>(apply.store("outInnovation", innovation.current));
-  }
+  const fg::History innovation = graph->history("innovation", {VK_FORMAT_R8_UINT, gridExtent(pixels, 2)});
+  apply.sample("previousInnovation", innovation.previous);
+  static_cast<void>(apply.store("outInnovation", innovation.current));
   const fg::Texture sums =
       apply.store("outResidualSums", graph->texture("residual sums", {VK_FORMAT_R32G32B32A32_SFLOAT, twice}));
   const fg::Texture innovationSums = apply.store(
@@ -55,8 +53,6 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
 
   // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
   const float bias = 0.5F * settings.innovationBias / history.maxHistory;
-  // All tiles of specular light are measured in every frame.
-  const float quietMemory = inputs.specular ? 1.0F : kQuietMemory;
   fg::PassBuilder pass = graph->compute("residual statistics", shaders::residualStatistics);
   pass.uniform("frameConstants", inputs.frame)
       .sample("fitDepth", inputs.blockDepth)
@@ -70,7 +66,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .specialize("kBlockSize", inputs.blockSize)
       .constants(ResidualStatisticsConstants{.tileOffset = static_cast<std::int32_t>(inputs.tileOffset),
                                              .kept = 1.0F - 1.0F / settings.frames,
-                                             .keptQuiet = 1.0F - 1.0F / (quietMemory * settings.frames),
+                                             .keptQuiet = 1.0F - 1.0F / (kQuietMemory * settings.frames),
                                              .maxHistory = history.maxHistory,
                                              .innovationGain = settings.innovationGain,
                                              .innovationBias = bias,

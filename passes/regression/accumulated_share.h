@@ -36,7 +36,7 @@ struct AccumulatedShareSettings {
             gain);
     v.visit({"blocks.innovation-gain",
              "How fast the history length follows the correlation of innovations, the differences of new samples from "
-             "history; 0: not at all. No effect on specular light",
+             "history; 0: not at all",
              "", 0.0, 4.0, "Mehra 1970"},
             innovationGain);
     v.visit(
@@ -74,7 +74,6 @@ struct AccumulatedShareInputs {
   std::uint32_t tileOffset;               ///< Pixels of the first one that lie before the image, per axis.
   fg::Extent tiles;                       ///< Number of these workgroups.
   std::optional<SteeredHistory> history;  ///< Without it, no pass reads the measured length.
-  bool specular;                          ///< Light.
 };
 
 /// Let the reconstruction `apply` (a variant RESIDUAL of block_apply.comp) mix its result with the accumulated light,

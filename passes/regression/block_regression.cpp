@@ -84,15 +84,6 @@ BlockGrid gridOf(StageGraph graph, fg::Buffer frame, fg::Extent pixels, const Bl
   return {graph, frame, pixels, blocks, gridExtent(pixels, cellSize), s.size, cellBlocks, cellSize, constants};
 }
 
-/// Whether features are those of specular light.
-bool isSpecular(const BlockGrid& grid, const Guides& guides) {
-  return guides.features.valid() && grid.graph->textureDesc(guides.features).format == VK_FORMAT_R32G32_UINT;
-}
-
-std::uint64_t bytesOfBlockFit(bool specular) {
-  return specular ? sizeof(StoredLobeFit) : sizeof(StoredBlockFit);
-}
-
 void readAverages(fg::PassBuilder& pass, const BlockAverages& averages) {
   static constexpr std::array kBindings{"moments0", "moments1", "moments2", "moments3", "moments4"};
   for (std::size_t i = 0; i < kBindings.size(); ++i) pass.sample(kBindings.at(i), averages.moments.at(i));
@@ -206,8 +197,7 @@ struct FineFit {
 };
 
 /// The fit of an edge-aware window around every block (Meunier & Harada 2022, 3.2).
-FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations,
-                   bool specular) {
+FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture normal, std::uint32_t iterations) {
   std::uint32_t spacing = 1;
   for (std::uint32_t t = 0;; ++t, spacing *= 3) {
     const auto declare = [&](const std::string& name, const fg::Shader& shader) {
@@ -221,17 +211,15 @@ FineFit addFineFit(const BlockGrid& grid, BlockAverages averages, fg::Texture no
           .dispatch(grid.blocks);
       return pass;
     };
-    grid.graph.offer(
-        blockIterationViews(), grid.pixels,
-        [&](const std::string& name) { return declare(name, shaders::blockAtrousView({.specular = specular})); },
-        {.index = t, .count = iterations});
+    grid.graph.offer(blockIterationViews(), grid.pixels,
+                     [&](const std::string& name) { return declare(name, shaders::blockAtrousView); },
+                     {.index = t, .count = iterations});
     const bool last = t + 1 == iterations;
     const std::string suffix = " " + std::to_string(t);
-    fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast({.specular = specular})
-                                                                  : shaders::blockAtrous({.specular = specular}));
+    fg::PassBuilder pass = declare("block a-trous" + suffix, last ? shaders::blockAtrousLast : shaders::blockAtrous);
     if (last) {
       return {
-          .fits = writeFits(grid, pass, grid.blocks, bytesOfBlockFit(specular), "block fits"),
+          .fits = writeFits(grid, pass, grid.blocks, sizeof(StoredBlockFit), "block fits"),
           .depth = pass.store("outDepth", grid.graph->texture("block fit depth", {VK_FORMAT_R32_UINT, grid.blocks}))};
     }
     averages = writeAverages(grid, pass, grid.blocks, suffix);
@@ -306,7 +294,7 @@ fg::PassBuilder declareMoments(const BlockGrid& grid, const BlockLight& light, c
   const bool packed = isPacked(grid, light.accumulated);
   fg::PassBuilder gather = readPixels(grid, light.lightGrid ? light.lightGrid->depth : guides.depth,
                                       light.lightGrid ? light.lightGrid->features : guides.features, "block moments",
-                                      shaders::blockMoments({.packed = packed, .specular = isSpecular(grid, guides)}));
+                                      shaders::blockMoments({.packed = packed}));
   gather.sample("accumulated", light.accumulated);
   // What stands in for an unread texture of colours is another one that is read. Beside packed light there is only the
   // lighting, which is therefore declared as read even without antilag.
@@ -338,7 +326,7 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
     throw std::invalid_argument("setting blocks.plane-near must be below blocks.plane-far");
   }
   const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, light);
-  if (bytesOfBlockFit(isSpecular(grid, guides)) * grid.blocks.width * grid.blocks.height > kLargestBuffer) {
+  if (std::uint64_t{sizeof(StoredBlockFit)} * grid.blocks.width * grid.blocks.height > kLargestBuffer) {
     throw std::invalid_argument(
         "setting blocks.size of " + std::to_string(grid.size) + " makes " + std::to_string(grid.blocks.width) + " x " +
         std::to_string(grid.blocks.height) +
@@ -349,14 +337,13 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
   const BlockAverages cells = writeAverages(grid, gather, grid.cells, " of cells", "outCell");
   const fg::Texture normal =
       gather.store("outNormal", graph->texture("block normal", {VK_FORMAT_R32_UINT, grid.blocks}));
-  const FineFit fine = addFineFit(grid, blocks, normal, settings.iterations, isSpecular(grid, guides));
+  const FineFit fine = addFineFit(grid, blocks, normal, settings.iterations);
   return {.fine = fine.fits, .coarse = addCoarseFit(grid, cells, fine.depth), .depth = fine.depth};
 }
 
 fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const BlockLight& light, const Guides& guides,
                                    const BlockFits& fits, fg::Texture target, const BlockRegressionSettings& settings) {
   const BlockGrid grid = gridOf(graph, frame, graph->textureDesc(guides.depth).extent, settings, light);
-  const bool specular = isSpecular(grid, guides);
   const bool readsPacked = isPacked(grid, light.accumulated);
   const bool writesPacked = lightStorageOf(graph->textureDesc(target).format) == LightStorage::Packed;
   const auto reconstruct = [&](const std::string& name, const fg::Shader& shader) {
@@ -368,16 +355,14 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
     return pass;
   };
   graph.offer(reconstructionViews(), grid.pixels, [&](const std::string& name) {
-    fg::PassBuilder pass = reconstruct(name, shaders::blockApplyView({.specular = specular}));
+    fg::PassBuilder pass = reconstruct(name, shaders::blockApplyView);
     readLightInView(grid, light, guides.depth, pass);
     return pass;
   });
-  if (!specular)
-    graph.offerLightDirection([&](const std::string& name) { return reconstruct(name, shaders::blockApplyDirection); });
+  graph.offerLightDirection([&](const std::string& name) { return reconstruct(name, shaders::blockApplyDirection); });
 
-  const bool residual = specular || addsResidual(light, settings);
-  const fg::Shader& shader = residual ? (writesPacked ? shaders::blockApplyResidualPacked({.specular = specular})
-                                                      : shaders::blockApplyResidual({.specular = specular}))
+  const bool residual = addsResidual(light, settings);
+  const fg::Shader& shader = residual ? (writesPacked ? shaders::blockApplyResidualPacked : shaders::blockApplyResidual)
                                       : (writesPacked ? shaders::blockApplyPacked : shaders::blockApply);
   fg::PassBuilder pass = reconstruct("block apply", shader);
   if (!writesPacked) {
@@ -398,8 +383,7 @@ fg::Texture addBlockReconstruction(StageGraph graph, fg::Buffer frame, const Blo
                          .tileSize = tileSizeOf(grid, shader),
                          .tileOffset = pixelsBeforeImage(grid),
                          .tiles = tilesOf(grid, shader),
-                         .history = light.history,
-                         .specular = specular},
+                         .history = light.history},
                         settings.share);
   }
   return pass.store("outFiltered", target);

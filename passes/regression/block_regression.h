@@ -120,7 +120,7 @@ BlockFits addBlockRegression(StageGraph graph, fg::Buffer frame, const BlockLigh
 
 /// Reconstruct every pixel from the fits around it and its own features.
 /// @param frame    upload of `FrameConstants`
-/// @param light    as given to `addBlockRegression`; specular light with `lighting`, as it always has a share
+/// @param light    as given to `addBlockRegression`
 /// @param target   texture to write to: RGBA16F, or packed, which holds no pass-through (packed_light.glsl)
 /// @param settings of the regression
 /// @returns the target's new version: filtered radiance; in RGBA16F the pass-through at sky and pixels without a

@@ -29,7 +29,7 @@ const std::vector<ViewInfo>& reflectionViews() {
 
 ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                      const TemporalAccumulationSettings& settings,
-                                     const ReflectionMotionSettings& reflection, bool blocks) {
+                                     const ReflectionMotionSettings& reflection, bool distances) {
   if (settings.rejection != HistoryRejection::Plane) {
     throw std::invalid_argument("specular light tests its history by plane: leave accumulation.rejection at plane");
   }
@@ -60,15 +60,11 @@ ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inp
   graph.offer(reflectionViews(), extent,
               [&](const std::string& name) { return declare(name, shaders::reflectionMotionView); });
   fg::PassBuilder pass =
-      declare("reflection motion", blocks ? shaders::reflectionMotionBlocks : shaders::reflectionMotion);
+      declare("reflection motion", distances ? shaders::reflectionMotionDistances : shaders::reflectionMotion);
   ReflectionMotion result;
   result.taps = pass.store("outTaps", graph.texture("reflection taps", {VK_FORMAT_R32_UINT, extent}));
   result.confidence = pass.store("outConfidence", graph.texture("reflection confidence", {VK_FORMAT_R8_UNORM, extent}));
-  const fg::Texture reflector = pass.store("outReflector", reflectors.current);
-  if (blocks) {
-    result.blocks.depth = pass.store("outDepth", graph.texture("reflection depth", {VK_FORMAT_R32_UINT, extent}));
-    result.blocks.features = reflector;
-  }
+  result.reflectors = pass.store("outReflector", reflectors.current);
   return result;
 }
 

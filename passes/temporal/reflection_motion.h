@@ -31,20 +31,18 @@ struct ReflectionMotionSettings {
 struct ReflectionMotion {
   fg::Texture taps;        ///< R32_UINT: as `AccumulationWithTaps::taps`.
   fg::Texture confidence;  ///< R8_UNORM: as `DenoiserInputs::confidence`, which it includes.
-  /// Of the regression over blocks, if it was asked for: `depth` with the geometric normal, and `features`, which are
-  /// R32G32_UINT (reflector.glsl).
-  Guides blocks;
+  fg::Texture reflectors;  ///< R32G32_UINT: what tells of the light that a pixel reflects (reflector.glsl).
 };
 
 /// Find the motion of specular light (passes/LEARNT.md, "Reflections"): that of the mirror image, or that of the
 /// surface, whichever ray of the previous frame comes closer to what is reflected.
 /// @param guides   with the geometric normal apart and with the history of depth
 /// @param settings of the accumulation that takes the result
-/// @param blocks   also make `ReflectionMotion::blocks`
+/// @param distances whether reflectors of all pixels have mean distances, else only those of mirrors
 /// @throws std::invalid_argument if these settings do not test history by plane, or if objects move and the depth of
 ///         their motion is not given
 ReflectionMotion addReflectionMotion(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                      const TemporalAccumulationSettings& settings,
-                                     const ReflectionMotionSettings& reflection = {}, bool blocks = false);
+                                     const ReflectionMotionSettings& reflection = {}, bool distances = false);
 
 }  // namespace walr

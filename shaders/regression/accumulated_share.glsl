@@ -7,8 +7,6 @@
 // most.
 // In resampled light (ReSTIR) the noise of y depends on that of h, and their product is not 0. The noise of different
 // pixels is still independent. Trust, 0 to 1, multiplies the shares; it falls if residuals two pixels apart do not agree.
-// SPECULAR: pixels with a narrow lobe count as beside an edge, and each pixel has a least share (regression/lobe.glsl).
-// History is not steered.
 // Most workgroups of light of one sample have no share. They do nothing in most frames (partOfWorkgroup).
 // Needs: `frame` (FrameConstants), `constants` (BlockRegressionConstants), kBlockSize, workgroups of 8 x 8, and
 // stored_fit.glsl.
@@ -52,24 +50,15 @@ bool isAmongQuiet() {
   return bilinear(quiet, before - 0.5 - base) >= least;
 }
 
-#ifdef SPECULAR
-// Of this thread's pixel.
-float ownRoughness = 1.0;
-float leastShare = 0.0;  // Of accumulated light.
-#endif
 
 // What a workgroup does beside the prediction.
 const int kNothing = 0;
 const int kMeasures = 1;  // Adds shares to its pixels, and measures them.
 const int kSteers = 2;    // Measures innovations, too.
 int partOfWorkgroup() {
-#ifdef SPECULAR
-  return kMeasures;  // Narrow lobes always have a share, and tiles mix lobes whose histories differ.
-#else
   if (!isAmongQuiet()) return kSteers;
   if (!isMeasuredThoughQuiet(gl_WorkGroupID.xy, frame.frameIndex)) return kNothing;
   return haveQuietInnovations(frame.frameIndex) ? kSteers : kMeasures;
-#endif
 }
 
 vec4 accumulatedAt(ivec2 p) {
@@ -111,15 +100,6 @@ float accumulatedShare(vec2 statistics, float samples, float trust, float gain) 
   const float share = bestShare(statistics, samples, trust, gain);
   return clamp((share - constants.residualLeastShare) / (1.0 - constants.residualLeastShare), 0.0, 1.0);
 }
-#ifdef SPECULAR
-// The same with what the lobe of the pixel asks for. Its gain is in the statistics.
-float shareOfLobe(vec2 statistics, float samples, float trust, float gain) {
-  return max(accumulatedShare(statistics, samples, trust, gain), leastShare);
-}
-#define SHARE shareOfLobe
-#else
-#define SHARE accumulatedShare
-#endif
 
 // The residuals of a pixel, or their means over pixels.
 struct Residual {
@@ -297,9 +277,7 @@ void storeSums(Measured pixel) {
 
 // What a workgroup that takes no part leaves to later frames: nothing.
 void storeNoSums(ivec2 p, bool hasPixel) {
-#ifndef SPECULAR
   if (hasPixel && isFirstOfQuad(p)) storeInnovation(p, 0.0);
-#endif
   if (gl_LocalInvocationIndex != 0u) return;
   const ivec2 tile = ivec2(gl_WorkGroupID.xy);
   imageStore(outResidualSums, tile, vec4(0.0));
@@ -316,14 +294,7 @@ struct FetchedLight {
 
 FetchedLight fetchLight(ivec2 p) {
   const TileLimits limits = kAntilag ? tileLimitsAt(antilag, vec2(p)) : kNoTileLimits;
-#ifdef SPECULAR
-  const vec4 light = texelFetch(lighting, p, 0);
-  // Where alpha is 0 there is no sample, and NaN is none, either.
-  const vec3 noisy = light.a > 0.0 ? light.rgb : vec3(uintBitsToFloat(0x7fc00000u));
-  return FetchedLight(accumulatedAt(p), noisy, limits);
-#else
   return FetchedLight(accumulatedAt(p), texelFetch(lighting, p, 0).rgb, limits);
-#endif
 }
 
 // The accumulated light of a pixel after the antilag of this frame, and its residual.
@@ -354,43 +325,31 @@ vec3 withAccumulated(ivec2 p, bool hasPixel, FetchedLight fetched, Shown shown, 
 
   vec3 result = shown.predicted;
   Measured measured = Measured(vec2(0.0), vec4(0.0), false, vec2(0.0), vec4(0.0));
-#ifndef SPECULAR
   float innovation = 0.0;
-#endif
   if (accumulated.mean.a > 0.0) {
     const vec3 before = previousPosition(frame.previousViewFromView, shown.position);
     const SameSurface surface = sameSurfaceAs(shown);
     Quad quad;
     const Residual around = meanAround(p, surface, own.samples > 0.0, measured.edge, quad);
-#ifdef SPECULAR
-    measured.edge = measured.edge || isNarrow(ownRoughness);
-#endif
     const Statistics known = previousStatisticsAt(before, measured.edge);
     const vec3 detail = own.mean - around.mean;
     const float length = accumulated.mean.a;
     const float aroundGain = measured.edge ? constants.residualEdgeGain : constants.residualGain;
-    result += SHARE(known.sums.xy, around.samples, known.trust, aroundGain) * around.mean;
-    result += SHARE(known.sums.zw, length, known.trust, constants.residualGain) * detail;
+    result += accumulatedShare(known.sums.xy, around.samples, known.trust, aroundGain) * around.mean;
+    result += accumulatedShare(known.sums.zw, length, known.trust, constants.residualGain) * detail;
     if (own.samples > 0.0) {
       measured.light = vec2(luminance(shown.predicted), 1.0);
       measured.statistics =
           vec4(statisticsOf(around.noisy, around.history, luminance(around.mean), around.samples),
                statisticsOf(own.noisy - around.noisy, own.history - around.history, luminance(detail), length));
       measured.far = vec4(farProduct(surface, own, 0), farProduct(surface, own, 1));
-#ifdef SPECULAR
-      measured.statistics.yw /= residualGain(ownRoughness);  // As good as a gain, and trust does not know of it.
-#endif
     }
-#ifndef SPECULAR
     if (isFirstOfQuad(p)) {
       innovation = meanInnovation(quad);
       if (steers) measured.innovation = innovationTerms(quad, before);
     }
-#endif
   }
-#ifndef SPECULAR
   if (hasPixel && isFirstOfQuad(p)) storeInnovation(p, innovation);
-#endif
   storeSums(measured);
   return clamp(result, vec3(0.0), vec3(kLightUnit));  // As predictions are: packed light holds no more.
 }

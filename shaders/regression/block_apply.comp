@@ -12,7 +12,6 @@
 // and anti-aliasing outputs the pass-through.
 // RESIDUAL (setting blocks.residual): adds shares of the residual, the accumulated light less the prediction
 // (accumulated_share.glsl), and stores statistics for the shares and the history length of later frames (innovation.glsl).
-// SPECULAR: of specular light, whose features are those of a lobe (regression/lobe.glsl).
 // VIEW: writes an intermediate value instead of the result, and black where there is no surface. The cells are always
 // read.
 // DIRECTION: writes the slopes of the prediction over the normal instead of the result, for the output `light_direction`
@@ -32,11 +31,7 @@ layout(constant_id = 2) const int kCellSize = 8;   // Pixels per axis.
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
 uniform utexture2D features;  // Shading normal and ambient occlusion.
-#ifdef SPECULAR
-layout(std430) readonly buffer fineFits { StoredLobeFit blocks[]; };
-#else
 layout(std430) readonly buffer fineFits { StoredBlockFit blocks[]; };
-#endif
 layout(std430) readonly buffer coarseFits { StoredFit cells[]; };
 #ifdef VIEW
 layout(rgba32f) uniform writeonly image2D outView;
@@ -75,9 +70,6 @@ layout(push_constant) uniform PushConstants {
 #include "common/half.glsl"
 #include "conventions/light_sample.glsl"
 #include "stage/pass_through.glsl"
-#endif
-#ifdef SPECULAR
-#include "regression/lobe.glsl"
 #endif
 #ifdef RESIDUAL
 #include "regression/accumulated_share.glsl"
@@ -147,14 +139,8 @@ float meanSamples(Prediction fine) { return kSampleCountUnit * fine.samples / di
 // Share of the coarse prediction, provided that a coarse fit is usable: 1 if no fine fit is, for instance because the
 // pixel lies on no block's plane. It is coarseShare(meanSamples(fine)). Both terms of its fraction are multiplied by the
 // weight, which saves a division.
-#ifdef SPECULAR
-// `trust`: factor of the samples that it counts for.
-float shareOfCoarse(Prediction fine, float trust) {
-  const float coarse = divisor(trust * constants.coarseSamples * fine.weight);
-#else
 float shareOfCoarse(Prediction fine) {
   const float coarse = divisor(constants.coarseSamples * fine.weight);
-#endif
   const float share = fadedShare(coarse / (kSampleCountUnit * fine.samples + coarse));
   return fine.weight > 0.0 ? share : 1.0;
 }
@@ -197,23 +183,6 @@ Prediction predictCoarse(BilinearTexels texels, ScaledFeatures pixel) {
   return sum;
 }
 
-#ifdef SPECULAR
-// `known`: the share of the weights that is left after those of directions.
-Prediction predictFine(BilinearTexels texels, vec3 ray, float z, vec3 normal, ScaledFeatures pixel, Lobe lobe,
-                       out float known) {
-  Prediction sum = noPrediction();
-  const float bilinear[4] = weightsOf(texels);
-  float all = 0.0;
-  [[unroll]] for (int i = 0; i < 4; ++i) {
-    const StoredLobeFit fit = blocks[indexOf(texels, i, kBlockSize)];
-    const float onPlane = bilinear[i] * edgeStopping(planeDistance(fit.block, ray, z)) * planeCosine(fit.block, normal);
-    add(sum, onPlane * inLobe(lobe, unpackLongNormal(fit.mirrored.x)), fit.block.fit, pixel);
-    all += onPlane;
-  }
-  known = all > 0.0 ? sum.weight / all : 1.0;
-  return sum;
-}
-#else
 Prediction predictFine(BilinearTexels texels, vec3 ray, float z, vec3 normal, ScaledFeatures pixel) {
   Prediction sum = noPrediction();
   const float bilinear[4] = weightsOf(texels);
@@ -225,7 +194,6 @@ Prediction predictFine(BilinearTexels texels, vec3 ray, float z, vec3 normal, Sc
   }
   return sum;
 }
-#endif
 
 #if defined(VIEW) || defined(DIRECTION)
 vec3 meanSlope(Prediction sum, uint feature) { return sum.slope[feature] / divisor(sum.weight); }
@@ -288,22 +256,6 @@ bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 nor
   if (z == 0.0) return false;
   const BilinearTexels nearCells = kCellSize == kBlockSize ? nearBlocks : bilinearTexels(p, kCellSize);
 
-#ifdef SPECULAR
-  const uvec2 reflector = texelFetch(features, p, 0).xy;
-  const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(p));
-  const Lobe lobe = lobeAt(reflector, ray);
-  const NormalAndOcclusion guides = featuresOf(lobe);
-  const ScaledFeatures pixel = scaledFeatures(guides, z * imageDepth(lobe));
-  normal = unpackLongNormal(reflector.x);
-  position = z * ray;
-  float known;
-  const Prediction fine = predictFine(nearBlocks, ray, z, normal, pixel, lobe, known);
-  const float shareIfUsable = shareOfCoarse(fine, coarseTrust(lobe.roughness));
-#ifdef RESIDUAL
-  ownRoughness = lobe.roughness;
-  leastShare = max(imageShare(lobe.roughness, abs(frame.rayFromPixel.y)), 1.0 - min(8.0 * known, 1.0));
-#endif
-#else
   const NormalAndOcclusion guides = unpackNormalAndOcclusion(texelFetch(features, p, 0).x);
   const ScaledFeatures pixel = scaledFeatures(guides, z);
   normal = guides.normal;
@@ -311,7 +263,6 @@ bool predict(ivec2 p, BilinearTexels nearBlocks, out vec3 position, out vec3 nor
   position = z * ray;
   const Prediction fine = predictFine(nearBlocks, ray, z, guides.normal, pixel);
   const float shareIfUsable = shareOfCoarse(fine);
-#endif
 #ifdef VIEW
   const Prediction coarse = predictCoarse(nearCells, pixel);
 #else

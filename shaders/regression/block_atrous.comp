@@ -3,7 +3,6 @@
 // edge-stopping weight on the way to it, times the cosine between the normals, times the growth weight
 // (block_growth.glsl).
 // LAST: the last iteration. It solves the regression and writes fits instead of moments.
-// SPECULAR: of specular light; the weight of a tap is also that of its mean lobe (regression/lobe.glsl).
 // VIEW: does the same work and writes one of its intermediate values of each block to all pixels of the block.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
@@ -38,16 +37,9 @@ layout(push_constant) uniform PushConstants {
 #include "regression/block_textures.glsl"
 #include "conventions/plane.glsl"
 #include "regression/block_plane.glsl"
-#ifdef SPECULAR
-#include "regression/lobe.glsl"
-#endif
 #ifdef LAST
 layout(r32ui) uniform writeonly uimage2D outDepth;
-#ifdef SPECULAR
-layout(std430) writeonly buffer outFits { StoredLobeFit fits[]; };
-#else
 layout(std430) writeonly buffer outFits { StoredBlockFit fits[]; };
-#endif
 #endif
 
 // Edge-stopping weight of a block; 0 outside the image and where the block shows no surface.
@@ -146,13 +138,7 @@ void writeResult(ivec2 block, float z, Plane plane, TraceSummary summary, BlockM
 #else
 #ifdef LAST
   const vec4 storedPlane = m.samples > 0.0 ? vec4(plane.inverseDepth * plane.normal, plane.offset) : vec4(0.0);
-#ifdef SPECULAR
-  const StoredBlockFit fit = StoredBlockFit(fitOf(m, z), storedPlane);
-  const uint mirrored = m.samples > 0.0 ? packNormal(lobeOf(m.x).direction) : 0u;
-  fits[gridIndex(block, textureSize(depth, 0))] = StoredLobeFit(fit, uvec4(mirrored));
-#else
   fits[gridIndex(block, textureSize(depth, 0))] = StoredBlockFit(fitOf(m, z), storedPlane);
-#endif
   const uint packedDepth = packFitDepth(z, converges(m.samples));
 #else
   storeMoments(block, packBlock(m));
@@ -193,11 +179,7 @@ void main() {
     if (weight <= 0.0) continue;
     const BlockMoments tapped = loadMoments(q);
     if (tapped.samples <= 0.0) continue;
-#ifdef SPECULAR
-    const float same = own.samples > 0.0 ? sameLight(own, tapped) * sameLobe(lobeOf(own.x), lobeOf(tapped.x)) : 1.0;
-#else
     const float same = own.samples > 0.0 ? sameLight(own, tapped) : 1.0;
-#endif
     if (same > 0.0) add(sum, weight * same, rescaleDepth(tapped, z / trace.depth));
   }
   writeResult(block, z, plane, summary, finish(sum));

@@ -7,8 +7,6 @@
 // texels.
 // kLightGrid: textures hold the pixels of the light grid (light_sample.glsl), and only these count.
 // PACKED: `accumulated` is packed light (packed_light.glsl).
-// SPECULAR: of specular light (regression/lobe.glsl). `features` are those of reflector.glsl. Pixels of a block also count by how
-// far their lobes are that of the representative pixel.
 // kAntilag: takes history out of accumulated light where the light has changed in this frame (current_light.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -47,9 +45,6 @@ layout(push_constant) uniform PushConstants { BlockRegressionConstants constants
 #include "temporal/current_light.glsl"
 #include "common/set_bits.glsl"
 #include "regression/window_depth.glsl"
-#ifdef SPECULAR
-#include "regression/lobe.glsl"
-#endif
 
 // The place of a thread in its block, and that of the first thread of its block in the workgroup.
 struct Place {
@@ -119,12 +114,7 @@ Representative representativeOf(Place place, uint surfaces) {
   r.z = unpackDepthBesideNormal(packed);
   r.packedNormal = packBlockNormal(packed & kShortNormalMask, uint(pixel.y * kBlockSize + pixel.x));
   r.plane = planeAt(p, r.z, unpackShortNormal(packed));
-#ifdef SPECULAR
-  const Lobe lobe = lobeAt(texelFetch(features, texel, 0).xy, rayThrough(frame.rayFromPixel, pixelCentre(p)));
-  r.x = featuresOf(featuresOf(lobe), 1.0 / imageDepth(lobe) - 1.0);
-#else
   r.x = featuresOf(unpackNormalAndOcclusion(texelFetch(features, texel, 0).x), 0.0);
-#endif
   r.y = lightAt(texel).rgb;
   return r;
 }
@@ -149,24 +139,12 @@ Sums sumsOf(Place place, uint surfaces, Representative r) {
     if ((surfaces >> i & 1u) == 0u) continue;
     const ivec2 texel = firstTexel(place.block) + texelInBlock(place.thread, i), p = pixelOfTexel(texel);
     const float z = max(unpackDepthBesideNormal(texelFetch(depth, texel, 0).x), r.z / kMostDepthRatio);
-#ifdef SPECULAR
-    const uvec2 reflector = texelFetch(features, texel, 0).xy;
-    const Lobe lobe = lobeAt(reflector, rayThrough(frame.rayFromPixel, pixelCentre(p)));
-    const NormalAndOcclusion shading = NormalAndOcclusion(unpackLongNormal(reflector.x), 0.0);
-#else
     const NormalAndOcclusion shading = unpackNormalAndOcclusion(texelFetch(features, texel, 0).x);
-#endif
     const vec4 mean = currentLightAt(texel, p, limits);
     sums.window.inverse += 1.0 / z;
     if (mean.a == 0.0) continue;
-#ifdef SPECULAR
-    const float x[kFeatures] = featuresOf(featuresOf(lobe), r.z / (z * imageDepth(lobe)) - 1.0);
-    const float weight = edgeStopping(planeDistance(r.plane, p, z)) * normalCosine(r.plane.normal, shading.normal) *
-                         sameLobe(lobeOf(r.x), lobe);
-#else
     const float x[kFeatures] = featuresOf(shading, r.z / z - 1.0);
     const float weight = edgeStopping(planeDistance(r.plane, p, z)) * normalCosine(r.plane.normal, shading.normal);
-#endif
     // Distances from the plane of a pixel whose depth is almost 0 overflow, and a weight may be NaN.
     if (weight > 0.0) addPixel(sums.onItsPlane, weight * mean.a, x, mean.rgb);
     addPixel(sums.all, mean.a, x, mean.rgb);

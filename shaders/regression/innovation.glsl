@@ -2,7 +2,6 @@
 // history suits the noise, innovations of successive frames are uncorrelated (Mehra 1970). A positive correlation means
 // that the history is too long: the light changes, or reprojection blurs its detail.
 // Means over quads, 2 x 2 pixels, are stored, in eight bits: the upper half of a half, which errs by an eighth at most.
-// Not of specular light, whose tiles mix lobes of all widths; the histories that suit these differ.
 // Needs: `frame` (FrameConstants).
 #ifndef WALR_INNOVATION_GLSL
 #define WALR_INNOVATION_GLSL

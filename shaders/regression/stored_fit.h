@@ -20,14 +20,7 @@ struct StoredBlockFit {
   vec4 plane;  // Normal over depth, and the offset of include/plane.glsl. All 0 where there is no fit.
 };
 
-// The same of specular light.
-struct StoredLobeFit {
-  StoredBlockFit block;
-  uvec4 mirrored;  // x: mean mirrored direction of the window, in octahedral form.
-};
-
 #ifdef __cplusplus
-static_assert(sizeof(StoredLobeFit) == 80);
 static_assert(sizeof(StoredFit) == 48);
 static_assert(sizeof(StoredBlockFit) == 64);
 }  // namespace walr

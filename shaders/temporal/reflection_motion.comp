@@ -6,8 +6,7 @@
 // history (confidence.glsl).
 // Needs the geometric normal in a texture of its own. Tests history by the plane of the shading normal, by
 // roughness and, of mirrors, by the distance of what is reflected.
-// BLOCKS: also writes what the regression over blocks reads: a depth with the geometric normal, and in the reflector of
-// every pixel the mean distance of what is reflected, which else only mirrors have.
+// DISTANCES: the reflector of every pixel holds the mean distance of what is reflected, which else only mirrors have.
 // VIEW: does the same work and writes its intermediate values.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -34,14 +33,11 @@ layout(rgba32f) uniform writeonly image2D outView;
 layout(r32ui) uniform writeonly uimage2D outTaps;
 layout(r8) uniform writeonly image2D outConfidence;
 layout(rg32ui) uniform writeonly uimage2D outReflector;
-#ifdef BLOCKS
-layout(r32ui) uniform writeonly uimage2D outDepth;
 #endif
-#endif
-#ifdef BLOCKS
-const bool kBlocks = true;
+#ifdef DISTANCES
+const bool kDistances = true;
 #else
-const bool kBlocks = false;
+const bool kDistances = false;
 #endif
 layout(push_constant) uniform PushConstants {
   ReflectionMotionConstants constants;
@@ -295,7 +291,7 @@ struct ReflectionMotion {
   float history;  // Longest, frames.
   float miss;     // Over the half angle that it is compared with.
   bool image;     // The mirror image is followed.
-  ReflectedSamples samples;  // Only with BLOCKS, or where a mirror image is a candidate.
+  ReflectedSamples samples;  // Only with DISTANCES, or where a mirror image is a candidate.
 };
 
 ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
@@ -308,7 +304,7 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   Sought sought = Sought(surface, r.valid, kAnyInverses);
   ReflectionMotion result =
       ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, 0.0, -1.0));
-  if (kBlocks || own.roughness < constants.surfaceFrom) result.samples = samplesAround(p, own);
+  if (kDistances || own.roughness < constants.surfaceFrom) result.samples = samplesAround(p, own);
   if (own.roughness < constants.surfaceFrom) {
     sought.inverses = soughtInverses(own, result.samples);
     const float inverseDistance = -result.samples.nearest / own.position.z;
@@ -403,19 +399,13 @@ void main() {
     imageStore(outTaps, p, uvec4(kNoSurfaceTaps));
     imageStore(outConfidence, p, vec4(0.0));
     imageStore(outReflector, p, uvec4(0u));
-#ifdef BLOCKS
-    imageStore(outDepth, p, uvec4(0u));
-#endif
     return;
   }
   const ReflectionMotion m = reflectionMotionAt(p, own);
   imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
   imageStore(outConfidence, p, vec4(m.history / constants.maxHistory));
-#ifdef BLOCKS
-  imageStore(outDepth, p, uvec4(packDepthNormal(z, packShortNormal(own.plane))));
-#endif
   ReflectedDistance distance = ReflectedDistance(0.0, 0.0);
-  if (kBlocks || own.roughness <= kMirrorUpTo) distance = meanDistance(p, own, m);
+  if (kDistances || own.roughness <= kMirrorUpTo) distance = meanDistance(p, own, m);
   imageStore(outReflector, p, uvec4(packReflector(texelFetch(shadingNormal, p, 0).x, own.roughness, distance), 0u, 0u));
 #endif
 }

@@ -54,42 +54,6 @@ TEST_F(AccumulatedShare, AgreesWithDoublePrecision) {
   }
 }
 
-// Lobes that are narrow, as wide as the wide ones whose gain is full, and wider.
-TEST_F(AccumulatedShare, OfSpecularLightAgreesWithDoublePrecision) {
-  const ResidualLight light = stripedLight(0.3, 1.0);
-  struct Case {
-    double roughness;
-    Scene scene;
-    double zoom;
-    bool hasEdges;
-  };
-  // Narrow lobes count as beside an edge.
-  for (const Case& each : {Case{26.0 / 255.0, flatWall(), 30.0, true}, Case{64.0 / 255.0, flatWall(), 30.0, false},
-                           Case{204.0 / 255.0, flatWall(), 30.0, false}, Case{204.0 / 255.0, thinBars(), 1.0, true}}) {
-    const double roughness = each.roughness;
-    SCOPED_TRACE(roughness);
-    FilterOf filter(device(), roughness, each.scene, each.zoom);
-    // The first frame has no statistics, and adds the least share s of the residual: p + s (m - p).
-    Image<glm::dvec4> predicted = filter.filter(light);
-    const double least = reference::imageShare(roughness, std::abs(double(filter.constants().rayFromPixel.y)));
-    ASSERT_LT(least, 0.05);
-    reference::forEachPixel(
-        kSize, [&](glm::ivec2 p) { predicted[p] = (predicted[p] - least * light.mean[p]) / (1.0 - least); });
-    const ExpectedResult expected(filter, light, predicted, roughness);
-    const Image<glm::dvec4> actual = filter.filter(light);
-    bool edges = false;
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-      edges = edges || expected.besideEdge(p);
-      const auto [around, detail] = expected.added(p);
-      const double x = predicted[p].g;
-      EXPECT_NEAR(actual[p].g, std::max(x + around + detail, 0.0),
-                  toleranceOf(std::max(x, light.mean[p].g), expected.residuals(p), expected.trustsInPart()))
-          << p.x << ", " << p.y;
-    });
-    EXPECT_EQ(edges, each.hasEdges);
-  }
-}
-
 // Light that comes to have detail while its tiles are quiet. Few of them measure it in each frame, until all wake.
 TEST_F(AccumulatedShare, QuietTilesTakePartInTurn) {
   const ResidualLight unrelated = unrelatedLight(), stripes = stripedLight(0.17, 0.5);

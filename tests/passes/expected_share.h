@@ -25,29 +25,11 @@ namespace walr::test::accumulated_share_test {
 
 using reference::Image;
 
-/// The eye's camera at the origin, whose picture has so many times as many pixels.
-inline FrameDescription zoomed(double zoom) {
-  FrameDescription camera = cameraAt({}, {}, kSize, 0);
-  for (glm::mat4* projection : {&camera.projection, &camera.previousProjection})
-    for (int axis = 0; axis < 2; ++axis) (*projection)[axis][axis] *= float(zoom);
-  return camera;
-}
-
 class FilterOf {
  public:
-  /// Of diffuse light.
   FilterOf(const fg::test::TestDevice& device, const Scene& scene, bool share)
-      : FilterOf(device, renderStill(scene, kSize), share, {}) {}
-  /// Of specular light. With a zoom of 30, lobes are so many pixels wide that hardly any shows an image.
-  FilterOf(const fg::test::TestDevice& device, double roughness, const Scene& scene = flatWall(), double zoom = 30.0)
-      : FilterOf(device, renderFrame(scene, zoomed(zoom), kSize), true, {kSize, reference::Reflector{roughness, 1.0}}) {
-  }
-  FilterOf(const fg::test::TestDevice& device, const reference::HostFrame& frame, bool share,
-           const Image<reference::Reflector>& reflectors)
-      : frame_(frame),
-        guides_(reflectors.pixels().empty()
-                    ? reference::prepareGuides(frame_, reference::Storage::Quantised, {}, kOcclusionInSmallImages)
-                    : reflectingGuides(frame_)),
+      : frame_(renderStill(scene, kSize)),
+        guides_(reference::prepareGuides(frame_, reference::Storage::Quantised, {}, kOcclusionInSmallImages)),
         run_(
             device, kSize, 2,
             [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
@@ -58,7 +40,7 @@ class FilterOf {
               settings.share.enabled = share;
               return addBlockFilter(graph, frame, light, guides, settings);
             },
-            true, reflectors) {}
+            true) {}
 
   Image<glm::dvec4> filter(const ResidualLight& light, std::uint32_t frameIndex = 0) {
     frame_.constants.frameIndex = frameIndex;
@@ -142,9 +124,7 @@ inline double bestShare(const Level& weighed, double trust) {
 /// statistics are those of earlier frames that all had this light and this prediction, unless others are given.
 class ExpectedResult {
  public:
-  /// @param roughness given for specular light
-  ExpectedResult(const FilterOf& filter, const ResidualLight& light, const Image<glm::dvec4>& predicted,
-                 std::optional<double> roughness = {})
+  ExpectedResult(const FilterOf& filter, const ResidualLight& light, const Image<glm::dvec4>& predicted)
       : guides_(filter.guides()), constants_(filter.constants()) {
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       const double y = luminanceOf(light.lighting[p]), m = luminanceOf(light.mean[p]), x = luminanceOf(predicted[p]);
@@ -152,11 +132,6 @@ class ExpectedResult {
       own_[p] = {y - x, h - x, m - x};
     });
     reference::forEachPixel(kSize, [&](glm::ivec2 p) { lookAround(p); });
-    if (roughness) {
-      if (*roughness < 0.25) edges_ = Image<int>(kSize, 1);  // They count as beside an edge.
-      lobeGain_ = std::pow(std::min(0.3 / *roughness, 1.0), 2.0);
-      leastShare_ = reference::imageShare(*roughness, std::abs(double(constants_.rayFromPixel.y)));
-    }
     sumOverTiles(predicted);
     statistics_ = statistics([](glm::ivec2) { return true; });
   }
@@ -254,8 +229,8 @@ class ExpectedResult {
 
   [[nodiscard]] double shareOf(const Level& level, double trust, double samples, double gain) const {
     const double least = AccumulatedShareSettings{}.leastShare;
-    const double share = bestShare(weighed(level, samples, lobeGain_ * gain), trust);
-    return std::clamp((share - least) / (1.0 - least), leastShare_, 1.0);
+    const double share = bestShare(weighed(level, samples, gain), trust);
+    return std::clamp((share - least) / (1.0 - least), 0.0, 1.0);
   }
 
   [[nodiscard]] glm::dvec3 positionOf(glm::ivec2 p) const {
@@ -315,7 +290,6 @@ class ExpectedResult {
   FrameConstants constants_;
   Image<Residual> own_{kSize}, around_{kSize};
   Image<int> edges_{kSize};
-  double lobeGain_ = 1.0, leastShare_ = 0.0;
   Image<Classes> tiles_{kTiles};
   std::array<Image<glm::dvec2>, 2> products_{Image<glm::dvec2>(kTiles), Image<glm::dvec2>(kTiles)};  ///< By axis.
   Image<double> tileLight_{kTiles}, pixels_{kTiles};

@@ -35,12 +35,10 @@ FilterRun::FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, std::s
 FilterRun::FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, const std::vector<glm::ivec2>& inputSizes,
                      const Add& add, bool occlusion, const Image<Reflector>& reflectors)
     : frame_(graph_.upload("frame constants", sizeof(FrameConstants))), reflectors_(reflectors) {
+  guides_ = importGuides(graph_, size, occlusion);
   if (!reflectors_.pixels().empty()) {
     const fg::Extent extent{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
-    guides_.depth = graph_.import("guides.depth", {VK_FORMAT_R32_UINT, extent}, fg::vk::kUploaded);
-    guides_.features = graph_.import("guides.features", {VK_FORMAT_R32G32_UINT, extent}, fg::vk::kUploaded);
-  } else {
-    guides_ = importGuides(graph_, size, occlusion);
+    guides_.features = graph_.import("reflectors", {VK_FORMAT_R32G32_UINT, extent}, fg::vk::kUploaded);
   }
   for (const glm::ivec2 inputSize : inputSizes)
     inputs_.push_back(importHalves(graph_, "input " + std::to_string(inputs_.size()), inputSize));
@@ -52,9 +50,9 @@ Image<glm::dvec4> FilterRun::run(const reference::HostFrame& frame, const Image<
                                  const std::vector<Image<glm::dvec4>>& inputs) {
   run_->executor().upload(frame_, frame.constants);
   if (!reflectors_.pixels().empty()) {
-    Guides depth;
-    depth.depth = guides_.depth;
-    upload(*run_, depth, guides);
+    Guides surfaces = guides_;
+    surfaces.features = {};
+    upload(*run_, surfaces, guides);
     run_->fill(guides_.features, encode(guides, reflectors_));
   } else {
     upload(*run_, guides_, guides);
@@ -63,14 +61,6 @@ Image<glm::dvec4> FilterRun::run(const reference::HostFrame& frame, const Image<
   run_->frame();
   const fg::Extent extent = graph_.textureDesc(output_).extent;
   return readHalves(*run_, output_, glm::ivec2(extent.width, extent.height));
-}
-
-Image<reference::Guide> reflectingGuides(const reference::HostFrame& frame) {
-  using reference::Storage;
-  Image<reference::Guide> guides = reference::prepareGuides(frame, Storage::Quantised, {}, kOcclusionInSmallImages);
-  const Image<reference::Guide> precise = reference::prepareGuides(frame, Storage::Quantised);
-  reference::forEachPixel(frame.size(), [&](glm::ivec2 p) { guides[p].features = precise[p].features; });
-  return guides;
 }
 
 }  // namespace walr::test

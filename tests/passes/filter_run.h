@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/passes/host_textures.h"
-#include "tests/passes/reference/block_regression.h"
+#include "tests/passes/reference/lobe_filter.h"
 #include "tests/vulkan/test_device.h"
 
 namespace walr::test {
@@ -18,7 +18,7 @@ class FilterRun {
 
   /// @param inputSizes of the textures that the passes read
   /// @param occlusion  whether the guides include ambient occlusion
-  /// @param reflectors given for specular light: its features, in place of ambient occlusion
+  /// @param reflectors given for specular light: they stand in `Guides::features`
   FilterRun(const fg::test::TestDevice& device, glm::ivec2 size, const std::vector<glm::ivec2>& inputSizes,
             const Add& add, bool occlusion = false, const reference::Image<reference::Reflector>& reflectors = {});
   /// The same with inputs that all have the size of the guides.
@@ -38,8 +38,5 @@ class FilterRun {
   fg::Texture output_;
   std::unique_ptr<fg::test::GraphRun> run_;
 };
-
-/// Guides of specular light: depths and planes as they lie in one word, shading normals as in a word of their own.
-reference::Image<reference::Guide> reflectingGuides(const reference::HostFrame& frame);
 
 }  // namespace walr::test

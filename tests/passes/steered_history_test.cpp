@@ -74,10 +74,8 @@ double roundInnovation(double value) {
 
 /// The filter without a share of accumulated light, whose result is the prediction, or with it. The result is then the
 /// least antilag factor of each tile.
-/// @param longest    history, frames
-/// @param reflectors of specular light
-FilterRun filterRun(const fg::test::TestDevice& device, bool steers, double longest,
-                    const Image<reference::Reflector>& reflectors = {}) {
+/// @param longest history, frames
+FilterRun filterRun(const fg::test::TestDevice& device, bool steers, double longest) {
   const auto add = [steers, longest](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
     BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
     if (steers) light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(longest));
@@ -89,7 +87,7 @@ FilterRun filterRun(const fg::test::TestDevice& device, bool steers, double long
     ++factor.version;  // That which the filter writes.
     return factor;
   };
-  return {device, kSize, 2, add, true, reflectors};
+  return {device, kSize, 2, add, true};
 }
 
 /// Slope of the regression of a frame's innovations on those of the frame before, around a tile of the statistics.
@@ -162,21 +160,6 @@ TEST_F(SteeredHistoryTest, AgreesWithDoublePrecision) {
   for (const double longest : {8.0, 32.0}) {
     SCOPED_TRACE(longest);
     expectAgreement(device(), longest);
-  }
-}
-
-// With innovations that agree, which would leave two frames of history.
-TEST_F(SteeredHistoryTest, SpecularLightKeepsItsLongestHistory) {
-  constexpr double kLongest = 8.0;
-  FilterRun run = filterRun(device(), true, kLongest, {kSize, reference::Reflector{0.8, 1.0}});
-  const reference::HostFrame frame = renderStill(flatWall(), kSize);
-  const Image<reference::Guide> guides = reflectingGuides(frame);
-  for (const double factor : {0.4, 1.0, 0.2}) {
-    const Light now(factor);
-    const Image<glm::dvec4> actual = run.run(frame, guides, {now.mean, now.lighting});
-    reference::forEachPixel(kAntilagTiles, [&](glm::ivec2 tile) {
-      EXPECT_EQ(actual[tile].x, 1.0 / kLongest) << factor << ", " << tile.x << ", " << tile.y;
-    });
   }
 }
 

@@ -38,7 +38,6 @@ struct Fit {
   double depth = 0.0;
   glm::dvec3 constant{0.0};
   std::array<glm::dvec3, kFeatures> slope{};
-  Features mean{};  ///< Of the window.
 };
 
 struct Inputs {
@@ -47,7 +46,6 @@ struct Inputs {
   const Image<glm::dvec4>& accumulated;
   const BlockRegressionSettings& settings;
   bool onLightGrid;
-  const Image<Reflector>* reflectors;
 
   /// Whether a pixel lies inside the image and counts in fits as a surface.
   [[nodiscard]] bool isShown(glm::ivec2 p) const {
@@ -88,55 +86,9 @@ double facing(glm::dvec3 a, glm::dvec3 b) {
   return std::clamp(glm::dot(a, b), 0.0, 1.0);
 }
 
-/// The lobe of specular light (passes/SPECULAR.md).
-struct Lobe {
-  glm::dvec3 direction{0.0};
-  double roughness = 0.0;
-  double distance = 0.0;  ///< Of what is reflected, over that of the surface from the eye.
-};
-
-/// What is reflected counts as at least so near, over the distance of the surface.
-constexpr double kFarthestReflection = 1000.0;
-
-Lobe lobeAt(const Inputs& inputs, glm::ivec2 p) {
-  const Reflector& reflector = (*inputs.reflectors)[p];
-  const glm::dvec3 ray = inputs.ray(p);
-  const double inverse = std::max(reflector.inverseDistance * glm::length(ray), 1.0 / kFarthestReflection);
-  return {glm::reflect(glm::normalize(ray), octahedralDecode(inputs.guides[p].features)), reflector.roughness,
-          1.0 / inverse};
-}
-
-/// That of mean features, with depths relative to the surface's own.
-Lobe lobeOf(const Features& x) {
-  const double image = 1.0 / std::max(x[kDepthFeature] + 1.0, 1.0 / kFarthestReflection);
-  return {glm::dvec3(x[0], x[1], x[2]), x[kOcclusionFeature], std::max(image - 1.0, 1.0 / kFarthestReflection)};
-}
-
-double lobeAngle(double roughness) {
-  return 2.0 * std::atan(roughness * roughness);
-}
-
-double sameLobe(const Lobe& own, const Lobe& other) {
-  const double width = std::max(lobeAngle(own.roughness), 1e-3);
-  const double turned = glm::length(other.direction - own.direction) / width;
-  const double farther = std::log(other.distance / own.distance) / 0.4;
-  const double rougher = (other.roughness - own.roughness) / 0.1;
-  return std::exp(-0.5 * (turned * turned + farther * farther + rougher * rougher));
-}
-
-double inLobe(const Lobe& own, const Lobe& fit) {
-  const double turned = glm::length(fit.direction - own.direction) / std::max(lobeAngle(own.roughness), 1e-3);
-  return std::exp(-0.5 * std::clamp(3.0 - 10.0 * own.roughness, 0.0, 1.0) * turned * turned);
-}
-
 /// The features X of passes/WALR.md, 4.
 Features featuresAt(const Inputs& inputs, glm::ivec2 p, double relativeTo) {
   const Guide& guide = inputs.guides[p];
-  if (inputs.reflectors != nullptr) {
-    const Lobe lobe = lobeAt(inputs, p);
-    const double image = guide.depth * (1.0 + lobe.distance);
-    return {lobe.direction.x, lobe.direction.y, lobe.direction.z, relativeTo / image - 1.0, lobe.roughness};
-  }
   const glm::dvec3 n = octahedralDecode(guide.features);
   return {n.x, n.y, n.z, relativeTo / guide.depth - 1.0, guide.occlusion};
 }
@@ -167,8 +119,7 @@ Image<Block> representBlocks(const Inputs& inputs) {
       const Guide& guide = inputs.guides[p];
       block.window[static_cast<std::size_t>(p.y) * pixels.x + p.x] =
           inputs.edgeStopping(block.pixel, block.depth, chosen.normal, p, guide.depth) *
-          facing(chosen.normal, octahedralDecode(guide.features)) * inputs.accumulated[p].a *
-          (inputs.reflectors != nullptr ? sameLobe(lobeAt(inputs, block.pixel), lobeAt(inputs, p)) : 1.0);
+          facing(chosen.normal, octahedralDecode(guide.features)) * inputs.accumulated[p].a;
     }
   });
   return blocks;
@@ -260,16 +211,15 @@ double traceEdge(const Inputs& inputs, const Image<Block>& blocks, const Image<i
 }
 
 /// Growth between two blocks, with the variance of their pixels together; 1 where one of them has no sample
-/// (passes/WALR.md, 5). Of specular light, times the weight of `b`'s lobe.
+/// (passes/WALR.md, 5).
 double sameLight(const Inputs& inputs, const Moments& a, const Moments& b) {
   if (a.samples == 0.0 || b.samples == 0.0) return 1.0;
-  const double lobe = inputs.reflectors != nullptr ? sameLobe(lobeOf(a.meanX), lobeOf(b.meanX)) : 1.0;
   const double difference = luminance(a.meanY - b.meanY);
   const double samples = a.samples + b.samples;
   const double within = (a.samples * a.luminanceVariance + b.samples * b.luminanceVariance) / samples;
   const double between = a.samples * b.samples * std::pow(difference / samples, 2.0);
   const double variance = (within + between) * (1.0 / a.samples + 1.0 / b.samples);
-  return lobe * sameLight(difference, variance, luminance(a.meanY + b.meanY), double(inputs.settings.growthErrors));
+  return sameLight(difference, variance, luminance(a.meanY + b.meanY), double(inputs.settings.growthErrors));
 }
 
 /// Windows of the fine fits: all a-trous iterations over blocks (passes/WALR.md, 5).
@@ -381,9 +331,8 @@ Image<Block> coarseWindows(const Inputs& inputs, int cellSize) {
 }
 
 /// Share s of the coarse fit (passes/WALR.md, 8).
-/// @param trust factor of the samples that it counts for
-double coarseShare(const BlockRegressionSettings& settings, double samples, double trust = 1.0) {
-  const double coarse = trust * double(settings.coarseSamples);
+double coarseShare(const BlockRegressionSettings& settings, double samples) {
+  const double coarse = double(settings.coarseSamples);
   const double share = coarse / (samples + coarse);
   return share * std::clamp(share / double(settings.coarseLeastShare) - 1.0, 0.0, 1.0);
 }
@@ -450,7 +399,6 @@ Fit fitOf(const Inputs& inputs, const Block& block) {
   fit.depth = block.depth;
   const Moments m = momentsOf(inputs, block);
   fit.samples = m.samples;
-  fit.mean = m.meanX;
   if (m.samples == 0.0) return fit;
   fit.slope = slopesOf(inputs, m);
   fit.constant = m.meanY;
@@ -480,14 +428,10 @@ void forFourNeighbours(glm::ivec2 p, int size, const Image<Fit>& grid, Visit vis
 
 }  // namespace
 
-double imageShare(double roughness, double pixel) {
-  return 1.0 / (1.0 + std::pow(std::atan(roughness * roughness) / (2.0 * pixel), 2.0));
-}
-
 Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& guides,
                                   const Image<glm::dvec4>& accumulated, const BlockRegressionSettings& settings,
-                                  bool onLightGrid, const Image<Reflector>* reflectors) {
-  const Inputs inputs{frame, guides, accumulated, settings, onLightGrid, reflectors};
+                                  bool onLightGrid) {
+  const Inputs inputs{frame, guides, accumulated, settings, onLightGrid};
   const Image<Block> blocks = representBlocks(inputs);
   const auto fitAll = [&](const Image<Block>& windows) {
     Image<Fit> fits(windows.size());
@@ -512,7 +456,6 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     double fineWeight = 0.0;
     double coarseWeight = 0.0;
     double samples = 0.0;
-    double all = 0.0;  // Weights before those of lobes.
     forFourNeighbours(p, cellSize, coarse, [&](glm::ivec2 cell, double bilinear) {
       if (coarse[cell].samples == 0.0) return;
       coarseSum += bilinear * evaluate(inputs, coarse[cell], p);
@@ -520,26 +463,17 @@ Image<glm::dvec3> blockRegression(const HostFrame& frame, const Image<Guide>& gu
     });
     forFourNeighbours(p, int(settings.size), fine, [&](glm::ivec2 b, double bilinear) {
       if (fine[b].samples == 0.0) return;
-      const double onPlane = bilinear * facing(blocks[b].normal, octahedralDecode(guide.features)) *
-                             inputs.edgeStopping(blocks[b].pixel, blocks[b].depth, blocks[b].normal, p, guide.depth);
-      const double weight =
-          onPlane *
-          (reflectors != nullptr ? inLobe(lobeAt(inputs, p), {glm::normalize(lobeOf(fine[b].mean).direction)}) : 1.0);
-      all += onPlane;
+      const double weight = bilinear * facing(blocks[b].normal, octahedralDecode(guide.features)) *
+                            inputs.edgeStopping(blocks[b].pixel, blocks[b].depth, blocks[b].normal, p, guide.depth);
       fineSum += weight * evaluate(inputs, fine[b], p);
       samples += weight * fine[b].samples;
       fineWeight += weight;
     });
     if (coarseWeight > 0.0) result[p] = coarseSum / coarseWeight;
     if (fineWeight > 0.0) {
-      const double trust = reflectors != nullptr ? std::pow(std::min((*reflectors)[p].roughness / 0.6, 1.0), 4.0) : 1.0;
-      const double share = coarseWeight > 0.0 ? coarseShare(settings, samples / fineWeight, trust) : 0.0;
+      const double share = coarseWeight > 0.0 ? coarseShare(settings, samples / fineWeight) : 0.0;
       result[p] = glm::mix(fineSum / fineWeight, result[p], share);
     }
-    if (reflectors == nullptr) return;
-    const double known = all > 0.0 ? fineWeight / all : 1.0;
-    const double image = imageShare((*reflectors)[p].roughness, std::abs(double(frame.constants.rayFromPixel.y)));
-    result[p] = glm::mix(result[p], glm::dvec3(accumulated[p]), std::max(image, 1.0 - 8.0 * known));
   });
   return result;
 }

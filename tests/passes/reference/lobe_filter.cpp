@@ -1,0 +1,127 @@
+#include "tests/passes/reference/lobe_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "tests/passes/reference/moments.h"
+#include "tests/passes/reference/octahedral.h"
+
+namespace walr::reference {
+namespace {
+
+/// Light with the standard deviation of its luminance; below 0: there is none.
+struct Light {
+  glm::dvec3 colour{0.0};
+  double deviation = -1.0;
+};
+
+/// What tells how far two pixels reflect the same light.
+class Lobes {
+ public:
+  Lobes(const HostFrame& frame, const Image<Guide>& guides, const Image<Reflector>& reflectors)
+      : frame_(frame), guides_(guides), reflectors_(reflectors) {}
+
+  [[nodiscard]] bool isSurface(glm::ivec2 p) const { return guides_.contains(p) && guides_[p].depth != 0.0; }
+
+  /// @param hasLight whether `p` has
+  [[nodiscard]] double weight(glm::ivec2 p, glm::ivec2 q, bool hasLight) const {
+    const glm::dvec3 way =
+        direction(q) + (position(q) - position(p)) * (reflectors_[p].inverseDistance / guides_[p].depth);
+    const double turn = glm::distance(glm::normalize(way), direction(p)), wider = angle(q) - angle(p);
+    const double part = std::max(std::clamp(1.6 - 5.0 * angle(p), 0.7, 1.4) * angle(p), 1e-4);
+    const double inverseSquare = (hasLight ? 1.0 / (part * part) : 0.0) + 1.0 / (0.41 * 0.41);
+    const double plane = std::abs(glm::dot(normal(p), position(q) - position(p))) / guides_[p].depth;
+    return std::exp(-0.5 * (turn * turn + wider * wider) * inverseSquare - plane / 0.02);
+  }
+
+ private:
+  [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame_.constants.rayFromPixel, pixelCentre(p)); }
+  [[nodiscard]] glm::dvec3 position(glm::ivec2 p) const { return ray(p) * guides_[p].depth; }
+  [[nodiscard]] glm::dvec3 normal(glm::ivec2 p) const { return octahedralDecode(guides_[p].features); }
+  [[nodiscard]] glm::dvec3 direction(glm::ivec2 p) const { return glm::reflect(glm::normalize(ray(p)), normal(p)); }
+  [[nodiscard]] double angle(glm::ivec2 p) const { return 2.0 * std::pow(reflectors_[p].roughness, 2.0); }
+
+  const HostFrame& frame_;
+  const Image<Guide>& guides_;
+  const Image<Reflector>& reflectors_;
+};
+
+/// Visits the pixels of 3 x 3 taps.
+template <typename Visit>
+void forTaps(glm::ivec2 p, int spacing, const Visit& visit) {
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) visit(p + spacing * glm::ivec2(x, y), glm::ivec2(x, y));
+}
+
+}  // namespace
+
+Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides, const Image<Reflector>& reflectors,
+                             const Image<glm::dvec4>& accumulated, const Image<glm::dvec4>& lighting) {
+  const Lobes lobes(frame, guides, reflectors);
+  // Variances of a sample's luminance by this frame's sample and the mean that holds it; below 0 without both.
+  Image<double> squares(guides.size(), -1.0);
+  Image<Light> light(guides.size());
+  const auto hasLight = [&](glm::ivec2 q) { return lobes.isSurface(q) && light[q].deviation >= 0.0; };
+  forEachPixel(guides.size(), [&](glm::ivec2 p) {
+    const double samples = accumulated[p].a;
+    if (samples > 0.0) light[p] = {glm::dvec3(accumulated[p]), 0.0};
+    if (samples < 1.5 || lighting[p].a == 0.0) return;
+    const double difference = luminance(glm::dvec3(lighting[p]) - glm::dvec3(accumulated[p]));
+    squares[p] = difference * difference * samples / (samples - 1.0);
+  });
+  for (const int spacing : {1, 2, 6}) {
+    Image<Light> filtered(guides.size());
+    forEachPixel(guides.size(), [&](glm::ivec2 p) {
+      if (!lobes.isSurface(p)) return;
+      double variance = 0.0, weights = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, samples = 0.0;
+      forTaps(p, spacing, [&](glm::ivec2 q, glm::ivec2 tap) {
+        if (!hasLight(q)) return;
+        if (spacing > 1 && tap.x != 0 && tap.y != 0) return;
+        weights += 1.0;
+        if (spacing > 1) {
+          variance += std::pow(light[q].deviation, 2.0);
+          return;
+        }
+        const double l = luminance(light[q].colour);
+        variance += std::max(squares[q], 0.0);
+        measured += squares[q] >= 0.0 ? 1.0 : 0.0;
+        sum += l;
+        sumOfSquares += l * l;
+        samples += accumulated[q].a;
+      });
+      if (weights == 0.0) return;
+      double deviation = std::sqrt(variance / weights);
+      if (spacing == 1) {
+        const double spread = std::max(sumOfSquares / weights - std::pow(sum / weights, 2.0), 0.0) * samples / weights;
+        const double known = std::min(4.0 * measured / weights, 1.0);
+        deviation = std::sqrt(4.0 * (1.0 - known) * spread + known * variance / std::max(measured, 1e-6));
+      }
+      const bool own = hasLight(p);
+      const double ownLuminance = luminance(light[p].colour);
+      const double unit = 4.0 * deviation + 1e-3 * ownLuminance + 1e-7;
+      glm::dvec3 colour(0.0);
+      double mixed = 0.0, total = 0.0;
+      forTaps(p, spacing, [&](glm::ivec2 q, glm::ivec2 tap) {
+        if (!hasLight(q)) return;
+        const double difference = own ? std::abs(luminance(light[q].colour) - ownLuminance) / unit : 0.0;
+        const double weight =
+            std::exp2(-0.4 * (std::abs(tap.x) + std::abs(tap.y))) * lobes.weight(p, q, own) * std::exp(-difference);
+        const double tapVariance =
+            spacing > 1 ? std::pow(light[q].deviation, 2.0) : (squares[q] >= 0.0 ? squares[q] : deviation * deviation);
+        colour += weight * light[q].colour;
+        mixed += weight * weight * tapVariance;
+        total += weight;
+      });
+      if (total > 0.0) filtered[p] = {colour / total, std::sqrt(mixed) / total};
+    });
+    light = filtered;
+  }
+  Image<glm::dvec3> result(guides.size());
+  forEachPixel(guides.size(),
+               [&](glm::ivec2 p) { result[p] = lobes.isSurface(p) ? light[p].colour : glm::dvec3(lighting[p]); });
+  return result;
+}
+
+}  // namespace walr::reference
