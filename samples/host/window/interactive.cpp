@@ -79,10 +79,13 @@ class Show {
     interface_.prepare(presenter_->renderPass(), queue_);
     while (!window_.closed() && interrupted == 0) {
       glfwPollEvents();
-      if (window_.size() == fg::Extent{}) {
+      const fg::Extent size = window_.size();
+      if (size == fg::Extent{}) {
         glfwWaitEventsTimeout(std::chrono::duration<double>(kRefresh).count());
         continue;
       }
+      // Drivers need not tell that a swapchain no longer fits its window.
+      if (size != presentedSize_) makePresenter();
       openDropped();
       step();
     }
@@ -132,7 +135,8 @@ class Show {
   void makePresenter() {
     queue_.waitAll();
     presenter_.reset();
-    presenter_.emplace(device_, surface_.handle(), window_.size(), picture_, kFramesInFlight, Interface::draw);
+    presentedSize_ = window_.size();
+    presenter_.emplace(device_, surface_.handle(), presentedSize_, picture_, kFramesInFlight, Interface::draw);
   }
 
   void follow() {
@@ -246,6 +250,7 @@ class Show {
   fg::vk::FrameQueue queue_;
   Interface interface_;
   std::optional<Presenter> presenter_;
+  fg::Extent presentedSize_;  // Of the window when `presenter_` was made for it.
   std::optional<std::uint32_t> lastSlot_;  // Slot of the last frame that `live_` recorded.
   std::future<HostFrame> next_;
   std::chrono::steady_clock::time_point lastInput_;
