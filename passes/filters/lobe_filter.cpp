@@ -12,9 +12,8 @@
 namespace walr {
 namespace {
 
-/// Pixels between the taps of each iteration: 1 or even (lobe_filter.comp). The first two reach all of 7 pixels, which
-/// the last one repeats.
-constexpr std::array<std::uint32_t, 3> kSpacings{1, 2, 6};
+/// Pixels between the taps of each iteration: 1 or even (lobe_filter.comp).
+constexpr std::array<std::uint32_t, 3> kSpacings{1, 2, 4};
 
 /// Threads that cover all pixels: work groups of 16 x 16 that are interleaved where taps are more than 2 pixels apart.
 fg::Extent threadsOf(fg::Extent pixels, std::uint32_t spacing) {
@@ -28,7 +27,7 @@ fg::Texture addLobeFilter(StageGraph graph, const LobeFilterInputs& inputs, fg::
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
   const bool readsPacked = lightStorageOf(graph->textureDesc(inputs.accumulated).format) == LightStorage::Packed;
   const bool writesPacked = lightStorageOf(graph->textureDesc(target).format) == LightStorage::Packed;
-  fg::Texture colour;
+  fg::Texture colour, deviation;
   for (std::size_t i = 0; i < kSpacings.size(); ++i) {
     const std::string number = std::to_string(i);
     const bool first = i == 0, last = i + 1 == kSpacings.size();
@@ -50,11 +49,13 @@ fg::Texture addLobeFilter(StageGraph graph, const LobeFilterInputs& inputs, fg::
           .sampleIf(inputs.antilag.valid(), "antilag", inputs.antilag, inputs.lighting)
           .specialize("kMaxHistory", inputs.maxHistory);
     } else {
-      pass.sample("colour", colour);
+      pass.sample("colour", colour).sample("deviation", deviation);
       if (last && !writesPacked) pass.sample("lighting", inputs.lighting);
     }
-    colour = pass.store("outFiltered",
-                        last ? target : graph->texture("lobe mean " + number, {VK_FORMAT_R16G16B16A16_SFLOAT, extent}));
+    colour =
+        pass.store("outFiltered", last ? target : graph->texture("lobe mean " + number, {VK_FORMAT_R32_UINT, extent}));
+    if (last) break;
+    deviation = pass.store("outDeviation", graph->texture("deviation " + number, {VK_FORMAT_R16_SFLOAT, extent}));
   }
   return colour;
 }

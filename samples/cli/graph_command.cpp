@@ -25,7 +25,8 @@ namespace {
 
 struct GraphOptions {
   MethodOptions method;
-  std::string secondPreset;  ///< Empty: there is one light.
+  std::string lights = "diffuse";
+  std::string secondPreset;  ///< Empty: there is one diffuse light.
   std::string size = "1920x1080";
   LightPattern light;
   bool json = false;
@@ -105,6 +106,19 @@ std::unique_ptr<Denoiser> makeSecond(const GraphOptions& options) {
   return second;
 }
 
+/// @param second that of a second diffuse light; may be null
+/// @throws UsageError if the method does not take specular light
+std::vector<DenoisedLight> lightsOf(const GraphOptions& options, Denoiser& method, Denoiser* second) {
+  if (options.lights != "diffuse" && !method.takesSpecularLight()) {
+    throw UsageError("--light " + options.lights + ": method " + options.method.name + " takes diffuse light only");
+  }
+  std::vector<DenoisedLight> lights;
+  if (options.lights != "specular") lights.push_back({&method});
+  if (second != nullptr) lights.push_back({second});
+  if (options.lights != "diffuse") lights.push_back({&method, true});
+  return lights;
+}
+
 void printGraph(const GraphOptions& options) {
   if (options.listPasses) {
     std::cout << passListing();
@@ -119,8 +133,7 @@ void printGraph(const GraphOptions& options) {
   InputConventions conventions;
   conventions.light = options.light;
   const std::unique_ptr<Denoiser> second = makeSecond(options);
-  std::vector<DenoisedLight> lights{{method.get()}};
-  if (second != nullptr) lights.push_back({second.get()});
+  const std::vector<DenoisedLight> lights = lightsOf(options, *method, second.get());
   const DenoiseGraph declared = declareDenoiseGraph(lights, extent, conventions, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) {
@@ -136,10 +149,15 @@ void registerGraph(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "graph", "Print a method's frame-graph plan: passes in order, textures with format and lifetime, memory");
   addMethodOptions(*command, options->method);
+  CLI::Option* const light =
+      command->add_option("--light", options->lights, "Light that is denoised: diffuse, specular, or both in one graph")
+          ->check(CLI::IsMember({"diffuse", "specular", "both"}))
+          ->option_text("diffuse|specular|both=diffuse");
   command
       ->add_option("--second-preset", options->secondPreset,
                    "Two lights that share their guides: the preset of the second. Settings count for both")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->excludes(light);
   command
       ->add_option("--size", options->size,
                    "Size of the image in pixels, 1 to 16384 each. Memory is computed from a table of formats, so no "

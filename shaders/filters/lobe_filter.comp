@@ -2,7 +2,8 @@
 // far their lobes cover the same things (lobe_weight.glsl), by the distance from the tangent plane and by luminance.
 // FIRST: reads accumulated light, shortens it by the antilag of its own frame, and estimates the standard deviation
 // that guides the weight of luminance. Other iterations read both from the one before.
-// LAST: writes filtered light, with PACKED as packed light.
+// Between iterations, light is packed (packed_light.glsl), as filtered light is. LAST: writes that, without PACKED as
+// halves.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
@@ -27,15 +28,19 @@ uniform utexture2D accumulatedPacked;
 uniform texture2D accumulatedHalf;
 uniform sampler2D antilag;
 #else
-uniform texture2D colour;  // a: standard deviation of the luminance of a sample, below 0 where there is none.
+uniform utexture2D colour;
+uniform texture2D deviation;  // Standard deviation of the luminance of a sample, below 0 where there is none.
 #endif
 #if defined(FIRST) || (defined(LAST) && !defined(PACKED))
 uniform texture2D lighting;
 #endif
-#if defined(LAST) && defined(PACKED)
-layout(r32ui) uniform writeonly uimage2D outFiltered;
-#else
+#if defined(LAST) && !defined(PACKED)
 layout(rgba16f) uniform writeonly image2D outFiltered;
+#else
+layout(r32ui) uniform writeonly uimage2D outFiltered;
+#endif
+#ifndef LAST
+layout(r16f) uniform writeonly image2D outDeviation;
 #endif
 
 #include "filters/lobe_weight.glsl"
@@ -90,8 +95,7 @@ Light lightAt(ivec2 q) {
 }
 #else
 Light lightAt(ivec2 q) {
-  const vec4 light = texelFetch(colour, q, 0);
-  return Light(light.rgb, light.a, 1.0, 0.0, false);
+  return Light(unpackFiltered(texelFetch(colour, q, 0).x).rgb, texelFetch(deviation, q, 0).x, 1.0, 0.0, false);
 }
 #endif
 
@@ -165,23 +169,25 @@ float deviationAround(int centre) {
 #endif
 
 void storeNoSurface(ivec2 p) {
-#if !defined(LAST)
-  imageStore(outFiltered, p, vec4(0.0, 0.0, 0.0, kNoSample));
-#elif defined(PACKED)
-  imageStore(outFiltered, p, uvec4(kFilteredNoSurface));
-#else
+#if defined(LAST) && !defined(PACKED)
   imageStore(outFiltered, p, vec4(passThroughLight(lighting, p), 1.0));
+#else
+  imageStore(outFiltered, p, uvec4(kFilteredNoSurface));
+#endif
+#ifndef LAST
+  imageStore(outDeviation, p, vec4(kNoSample));
 #endif
 }
 
 void store(ivec2 p, vec4 light) {
-#if defined(LAST) && defined(PACKED)
-  const vec3 within = clamp(light.rgb, vec3(0.0), vec3(largestPacked(9)));
-  imageStore(outFiltered, p, uvec4(packFiltered(within, ditherNumber(p, frame.frameIndex))));
-#elif defined(LAST)
+#if defined(LAST) && !defined(PACKED)
   imageStore(outFiltered, p, nearestHalf(vec4(light.rgb, 1.0)));
 #else
-  imageStore(outFiltered, p, min(light, vec4(kLargestHalf)));  // No running mean: how it is rounded does not matter.
+  const vec3 within = clamp(light.rgb, vec3(0.0), vec3(largestPacked(9)));
+  imageStore(outFiltered, p, uvec4(packFiltered(within, ditherNumber(p, frame.frameIndex))));
+#endif
+#ifndef LAST
+  imageStore(outDeviation, p, vec4(min(light.a, kLargestHalf)));
 #endif
 }
 

@@ -148,11 +148,9 @@ TEST_P(DenoiserPlansTest, IsAcceptedByTheVerifier) {
 TEST_P(DenoiserPlansTest, NeedsAtMostTwoPercentMoreMemoryThanItsLowerBound) {
   const fg::MemoryReport& memory = plan().memory;
   // The project's goal is 2 %. Some graphs with specular light miss it by the byte a pixel of a confidence, and those
-  // of both lights by an image of light, which the other one's cannot overlay (LEARNT.md, "Reflections"). That of
-  // `walr` misses it by three bytes a pixel; where they go is not known yet.
+  // of both lights by an image of light, which the other one's cannot overlay (LEARNT.md, "Reflections").
   const test::LightSet& lights = GetParam().lights;
-  const double ofOneLight = GetParam().method == "walr" ? 3.0 : 1.0;
-  const double bytesPerPixel = !lights.specular ? 0.0 : lights.diffuse ? 9.0 : ofOneLight;
+  const double bytesPerPixel = !lights.specular ? 0.0 : lights.diffuse ? 9.0 : 1.0;
   const double missed = bytesPerPixel * kExtent.width * kExtent.height;
   EXPECT_LE(static_cast<double>(memory.transientPeakBytes),
             1.02 * static_cast<double>(memory.transientLowerBoundBytes) + missed)

@@ -71,7 +71,7 @@ Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides,
     const double difference = luminance(glm::dvec3(lighting[p]) - glm::dvec3(accumulated[p]));
     squares[p] = difference * difference * samples / (samples - 1.0);
   });
-  for (const int spacing : {1, 2, 6}) {
+  for (const int spacing : {1, 2, 4}) {
     Image<Light> filtered(guides.size());
     forEachPixel(guides.size(), [&](glm::ivec2 p) {
       if (!lobes.isSurface(p)) return;
