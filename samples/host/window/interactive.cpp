@@ -250,7 +250,7 @@ class Show {
   fg::vk::FrameQueue queue_;
   Interface interface_;
   std::optional<Presenter> presenter_;
-  fg::Extent presentedSize_;  // Of the window when `presenter_` was made for it.
+  fg::Extent presentedSize_;               // Of the window when `presenter_` was made for it.
   std::optional<std::uint32_t> lastSlot_;  // Slot of the last frame that `live_` recorded.
   std::future<HostFrame> next_;
   std::chrono::steady_clock::time_point lastInput_;
