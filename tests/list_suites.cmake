@@ -6,6 +6,7 @@ execute_process(COMMAND "${PROGRAM}" --gtest_list_tests OUTPUT_VARIABLE listing 
 # Lines of cases are indented. Those of suites are "Suite." or "Suite/0.  # TypeParam = ...".
 string(REGEX REPLACE "\n +[^\n]*" "" listing "\n${listing}")
 string(REGEX MATCHALL "[^\n ]+\\.( +#[^\n]*)?\n" suites "${listing}")
+list(REMOVE_ITEM PROPERTIES "")
 list(JOIN PROPERTIES "]==] [==[" properties)
 set(script "")
 foreach(suite IN LISTS suites)

@@ -70,7 +70,7 @@ def measure(cache, walr):
     entries.run_walr(walr, "bench", "--light", "specular", "--sequences", *map(cache.sequence, chosen()), "--output", bench,
                      "--repeat", "0", "--no-html")
     record(bench, found)
-    plots.crops(bench, "reflections.webp", plots.REFLECTIONS, 1)
+    plots.crops(bench, "reflections.png", plots.REFLECTIONS, 1)
 
 
 def main():

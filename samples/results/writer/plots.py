@@ -73,7 +73,7 @@ def rates(kept):
     save(figure, "rates.png", 90)
 
 
-def crops(folder, name, shown, count=2):
+def crops(folder, file, shown, count=2):
     """The places of largest error in the last stored frame of each sequence of `walr bench`, and the change of the error there along
     motion. shown: methods."""
     bench, rows = Bench(folder), []
@@ -98,4 +98,4 @@ def crops(folder, name, shown, count=2):
             if index == 0:
                 cell.set_title(name.removeprefix("_"), fontsize=8)
     figure.subplots_adjust(0.005, 0.005, 0.995, 0.975, wspace=0.04, hspace=0.04)
-    save(figure, name, 100)
+    save(figure, file, 100)
