@@ -95,10 +95,12 @@ class Index(unittest.TestCase):
     def test_it_tells_when_and_at_which_commit_each_page_was_measured(self):
         record = {"date": "2030-01-02", "commit": "abc", "part": "daily", "judged": None, "seed": 3, "variants": ["x=walr,a=1"],
                   "entries": {"e": {"size": [960, 540], "held_back": False, "methods": {"walr": {}, "x": {}}}}}
-        other = {"date": "2030-01-03", "commit": "def", "command": "walr measure", "noise": {"s": 0}, "scenes": {"t": {}}, "device": "D"}
-        lines = index_page.measured_section([record], other, other, other).splitlines()
+        other = {"date": "2030-01-03", "commit": "def", "command": "walr measure", "noise": {"s": 0}, "scenes": {"t": {}}, "device": "D",
+                 "sequences": {"g": {}, "m": {}}}
+        lines = index_page.measured_section([record], other, other, other, other).splitlines()
         self.assertIn("| [errors at 540 lines](CORPUS_540.md) | 1 sequences of `walr render` | 2030-01-02 | abc |", lines)
         self.assertIn("| [times on a GPU](GPU.md) | D | 2030-01-03 | def |", lines)
+        self.assertIn("| [errors of reflections](REFLECTIONS.md) | 2 sequences of `walr render` | 2030-01-03 | def |", lines)
         self.assertIn("    samples/corpus/corpus.py run --output DIR --part daily --methods walr --variant x=walr,a=1 --seed 3", lines)
 
 

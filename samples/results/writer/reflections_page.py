@@ -89,7 +89,7 @@ measured on a GPU.
 ![the places of largest error](images/reflections.png)
 
 *One place of each sequence's last frame, where the methods' mean FLIP is largest. Below each: change of the error in luminance from the
-frame before, along the surface's motion. Red: brighter. Blue: darker. Grey: the surface was not visible before.*
+frame before, along the surface's motion. Red: brighter. Blue: darker. Grey: the surface was not visible before. Magenta: no reference.*
 """
 
 
