@@ -6,26 +6,33 @@
 
 namespace walr {
 
-std::optional<double> meanOf(const std::vector<FrameErrors>& frames, const Metric& metric) {
+namespace {
+
+/// Mean of a figure over the frames that have it.
+template <typename Figure>
+std::optional<double> meanOver(const std::vector<FrameErrors>& frames, Figure figureOf) {
   double sum = 0.0;
   std::size_t count = 0;
   for (const FrameErrors& frame : frames) {
-    sum += (frame.*metric.figure).value_or(0.0);
-    count += (frame.*metric.figure).has_value() ? 1 : 0;
+    const std::optional<double>& figure = figureOf(frame);
+    sum += figure.value_or(0.0);
+    count += figure.has_value() ? 1 : 0;
   }
   return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> meanOf(const std::vector<FrameErrors>& frames, const Metric& metric) {
+  return meanOver(
+      frames, [&](const FrameErrors& frame) -> const auto& { return frame.*metric.figure; });
 }
 
 FiguresByRoughness meanByRoughness(const std::vector<FrameErrors>& frames) {
   FiguresByRoughness means;
   for (std::size_t i = 0; i < means.size(); ++i) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const FrameErrors& frame : frames) {
-      sum += frame.byRoughness.at(i).value_or(0.0);
-      count += frame.byRoughness.at(i).has_value() ? 1 : 0;
-    }
-    if (count > 0) means.at(i) = sum / static_cast<double>(count);
+    means.at(i) = meanOver(
+        frames, [&](const FrameErrors& frame) -> const auto& { return frame.byRoughness.at(i); });
   }
   return means;
 }

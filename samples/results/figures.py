@@ -49,8 +49,9 @@ def measure(cache, walr):
     records.record_corpus(NAME, output, shown_places, {"means": means_of(kept), "costs": costs})
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def run(description, measure):
+    """Measures with the cache and the program that the command line names, and writes all pages."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cache", default=corpus.default_cache(), help="folder for frames and judgements; default: %(default)s")
     parser.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
                         default=entries.PROJECT / "build" / "bin" / "walr")
@@ -62,4 +63,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(__doc__, measure)

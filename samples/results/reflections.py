@@ -7,13 +7,10 @@ that take it, scores the results by roughness, and writes the page and its pictu
 Takes about half an hour on two idle cores, tells what is left, and goes on where it was interrupted. Needs numpy, Pillow and
 matplotlib (Debian: python3-matplotlib).
 """
-import argparse
 import datetime
 import json
-import pathlib
 
-import write
-import corpus
+import figures
 import entries
 import plots
 import records
@@ -73,17 +70,5 @@ def measure(cache, walr):
     plots.crops(bench, "reflections.png", plots.REFLECTIONS, 1)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cache", default=corpus.default_cache(), help="folder for frames and results; default: %(default)s")
-    parser.add_argument("--walr", type=lambda file: pathlib.Path(file).resolve(), help="the program; default: %(default)s",
-                        default=entries.PROJECT / "build" / "bin" / "walr")
-    arguments = parser.parse_args()
-    if not arguments.walr.exists():
-        parser.error(f"there is no program {arguments.walr}: build it (cmake --build build --target walr), or name one with --walr")
-    measure(arguments.cache, arguments.walr)
-    write.main([])
-
-
 if __name__ == "__main__":
-    main()
+    figures.run(__doc__, measure)
