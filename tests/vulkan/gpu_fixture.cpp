@@ -29,12 +29,20 @@ void failOnMessages() {
   for (const vk::Message& message : messages.take()) ADD_FAILURE() << "validation: " << message.text;
 }
 
-}  // namespace
-
-void GpuTest::TearDownTestSuite() {
+void closeDevice() {
   validated.reset();
   failOnMessages();
 }
+
+/// Closes the device after the last test of the program.
+class DeviceOfTheProgram : public testing::Environment {
+ public:
+  void TearDown() override { closeDevice(); }
+};
+[[maybe_unused]] const testing::Environment* const deviceOfTheProgram =
+    testing::AddGlobalTestEnvironment(new DeviceOfTheProgram);
+
+}  // namespace
 
 void GpuTest::SetUp() {
   if (!validated) validated.emplace(messages);
@@ -42,7 +50,7 @@ void GpuTest::SetUp() {
 
 void GpuTest::TearDown() {
   failOnMessages();
-  if (HasFailure()) TearDownTestSuite();
+  if (HasFailure()) closeDevice();
 }
 
 const vk::Instance& GpuTest::instance() {

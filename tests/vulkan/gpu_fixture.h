@@ -12,15 +12,15 @@ namespace fg::test {
 /// A test on a Vulkan device with the validation layer and synchronization validation. It fails on every warning and
 /// error of the layer. It also fails if the layer or a device is missing.
 ///
-/// All cases of a suite share the device, because making it and its pipelines takes longer than most cases. After a
+/// All cases of a program share the device, because making it and its pipelines takes longer than most cases. After a
 /// failure the next case gets a new one. What the layer tells when the device is destroyed, for instance of objects
-/// that a case has left behind, fails the failed case or else the suite: run its cases one by one to see which it was.
+/// that a case has left behind, fails the failed case or else the program: run its cases one by one to see which it
+/// was.
 ///
 /// It uses the loader's first device; the loader's environment variables can select another. Shaders compute in single
 /// precision, as on the device of a host that enables no more than it must.
 class GpuTest : public testing::Test {
  protected:
-  static void TearDownTestSuite();
   void SetUp() override;
   void TearDown() override;
 
