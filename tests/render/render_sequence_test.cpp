@@ -88,6 +88,27 @@ TEST(RenderSequence, IsReadBackInTheProjectsConventions) {
   EXPECT_TRUE(frame.nonFinite.empty());
 }
 
+// The error of a frame against a reference that holds its own paths would be too small. The same number of samples
+// gives light of the same mean and of other noise.
+TEST(RenderSequence, ReferencesHoldOtherPathsThanNoisyFrames) {
+  const walr::test::TemporaryDirectory folder;
+  RenderOptions options = smallBox(folder.path());
+  options.sampler = Sampler::Kind::Independent;
+  options.samples = options.referenceSamples = 1;
+  render(options);
+  SequenceOptions composite;
+  composite.light = kWholePicture;
+  const Frame frame = Sequence(folder.path(), composite).read(0);
+  int lit = 0, equal = 0;
+  for (std::size_t i = 0; i < frame.indirect.pixelCount(); ++i) {
+    const float light = frame.indirect.pixel(i)[0];
+    lit += light > 0.0F ? 1 : 0;
+    equal += light > 0.0F && light == frame.reference->indirect.pixel(i)[0] ? 1 : 0;
+  }
+  EXPECT_GT(lit, 100);
+  EXPECT_EQ(equal, 0);
+}
+
 // Pixels without a sample have no indirect light; guides and direct light do not change.
 TEST(RenderSequence, WritesSparseLight) {
   const walr::test::TemporaryDirectory full;

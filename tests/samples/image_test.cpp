@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -5,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -253,6 +255,30 @@ TEST(Png, ExposesEachImageSeparatelyAndStacksRows) {
   writePng(file, {{{&one, 0.0F}, {&two, -1.0F}}, {{&one, 1.0F}, {&two, 0.0F}}});
   // 1 / (1 + 1) is code value 188, 2 / (1 + 2) is 213.
   EXPECT_EQ(test::readPng(file, 2, 2), (std::vector<std::uint8_t>{188, 0, 0, 188, 0, 0, 213, 0, 0, 213, 0, 0}));
+}
+
+TEST(Png, AGridHoldsEachImagePixelByPixel) {
+  constexpr int kWidth = 3, kHeight = 2, kBytes = 3 * kWidth;
+  const TemporaryDirectory directory;
+  const auto alone = directory.path() / "alone.png", together = directory.path() / "together.png";
+  // Values that differ in every pixel of every image.
+  std::vector<Image> images(4, Image(kWidth, kHeight, 3));
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    float value = 0.1F * static_cast<float>(i);
+    for (float& v : images[i].values()) v = value += 0.02F;
+  }
+  writePng(together, {{{&images[0]}, {&images[1]}}, {{&images[2]}, {&images[3]}}});
+  const auto grid = test::readPng(together, 2 * kWidth, 2 * kHeight);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    SCOPED_TRACE(i);
+    writePng(alone, {{{&images[i]}}});
+    const auto image = test::readPng(alone, kWidth, kHeight);
+    for (std::size_t y = 0; y < kHeight; ++y) {
+      const auto row = std::span(image).subspan(y * kBytes, kBytes);
+      const auto there = std::span(grid).subspan((i / 2 * kHeight + y) * 2 * kBytes + i % 2 * kBytes, kBytes);
+      EXPECT_TRUE(std::ranges::equal(row, there)) << "row " << y;
+    }
+  }
 }
 
 TEST(Exposure, BringsTheLogAverageLuminanceToMiddleGrey) {

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include "samples/errors.h"
@@ -55,6 +56,34 @@ TEST_F(SequenceTest, ReadsBlenderFramesUnchanged) {
   EXPECT_TRUE(frame.direct.empty());
   EXPECT_FALSE(frame.resetHistory);
   EXPECT_TRUE(sequence.read(0).resetHistory);
+}
+
+// Blender's vectors have y up (its manual, "Vector pass"). A still wall moves against a camera that moves right and up:
+// where a pixel lay in the previous frame, by the cameras, is where motion leads.
+TEST_F(SequenceTest, MotionOfBlenderLeadsToThePreviousPlace) {
+  files.write(0, 1);
+  editCameras([](nlohmann::json& frames) {
+    for (const int column : {12, 13}) frames[1]["view"][column] = column == 12 ? -1.0 : -3.0;
+  });
+  // In pixels: the wall is 4 units away, and 6 x 4 pixels show 8 x 8 units of it.
+  files.writeFrame(1, [](Channels& channels) {
+    std::ranges::fill(channels["Vector.X"].values(), 0.75F);
+    std::ranges::fill(channels["Vector.Y"].values(), 1.5F);
+  });
+  const Sequence sequence = open();
+  const Frame frame = sequence.read(1);
+  const Camera& camera = frame.camera;
+  const auto pixelOf = [&](const glm::vec4& viewPosition) {
+    const glm::vec4 clip = camera.projection * viewPosition;
+    return glm::vec2(0.5F + 0.5F * clip.x / clip.w, 0.5F - 0.5F * clip.y / clip.w) * glm::vec2(6.0F, 4.0F);
+  };
+  const glm::vec4 place(0.5F, -0.25F, -4.0F, 1.0F);
+  const glm::vec2 moved = pixelOf(camera.previousView * glm::inverse(camera.view) * place) - pixelOf(place);
+  const glm::vec2 motion =
+      glm::vec2(frame.motion.at(2, 2, 0), frame.motion.at(2, 2, 1)) * sequence.layout().layout->motionScale;
+  // Rounding of single precision.
+  EXPECT_NEAR(motion.x, moved.x, 1e-5F);
+  EXPECT_NEAR(motion.y, moved.y, 1e-5F);
 }
 
 TEST_F(SequenceTest, AcceptsAViewLayerPrefix) {
