@@ -154,12 +154,11 @@ class Plugin {
   WalrRegisterPlugin register_ = nullptr;
 };
 
-/// All cases of a suite share the host, because opening it and creating its pipelines takes longer than most cases.
+/// All cases of a program share the host, because opening it and creating its pipelines takes longer than most cases.
 /// After a failure the next case gets a new one. What the layer tells when the device is destroyed, for instance of
-/// objects that a case has left behind, fails the failed case or else the suite.
+/// objects that a case has left behind, fails the failed case or else the program.
 class PluginTest : public testing::Test {
  protected:
-  static void TearDownTestSuite() { closeHost(); }
   void SetUp() override {
     if (host.device == VK_NULL_HANDLE) openHost();
     const WalrRegistryHost registry{sizeof(WalrRegistryHost), 0, &registered, takeApi, takeType};
@@ -224,17 +223,25 @@ class PluginTest : public testing::Test {
   template <typename Way>
   void expectTheOpaqueCallAtSizes(std::span<const Size> sizes, std::span<const std::size_t> turns);
 
+  static void closeHost() {
+    if (host.device == VK_NULL_HANDLE) return;
+    EXPECT_EQ(host_close(&host), 0) << "validation messages";
+    host = {};
+  }
+
   static inline Host host{};
   Plugin plugin;
   WalrDevice device{};
   Registered registered;
 
  private:
-  static void closeHost() {
-    if (host.device == VK_NULL_HANDLE) return;
-    EXPECT_EQ(host_close(&host), 0) << "validation messages";
-    host = {};
-  }
+  /// Closes the host after the last test of the program.
+  class HostOfTheProgram : public testing::Environment {
+   public:
+    void TearDown() override { closeHost(); }
+  };
+  [[maybe_unused]] static inline const testing::Environment* const hostOfTheProgram =
+      testing::AddGlobalTestEnvironment(new HostOfTheProgram);
 };
 
 inline WalrCamera cameraAt(float x) {

@@ -175,7 +175,7 @@ class QtRhiTest : public ConformanceTest {
     application = std::make_unique<QGuiApplication>(count, arguments);
   }
   static void TearDownTestSuite() {
-    PluginTest::TearDownTestSuite();
+    closeHost();
     application.reset();
   }
 

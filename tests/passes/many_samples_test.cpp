@@ -33,19 +33,16 @@ struct NoisyFrame {
 
 /// @param step scene units that the camera moves to the side in a frame
 NoisyFrame frameOf(std::uint32_t index, std::uint32_t samples, double step, const Light& light) {
-  const auto camera = [&](std::uint32_t seed) {
-    return cameraAt({step * index, 0.0, 0.0}, {step * (index == 0 ? 0 : index - 1), 0.0, 0.0}, kSize, seed);
-  };
-  NoisyFrame frame{.noisy = renderFrame(flatWall(), camera(index), kSize, light, Noise::None),
-                   .truth = renderFrame(flatWall(), camera(index), kSize, light, Noise::None)};
+  const FrameDescription camera =
+      cameraAt({step * index, 0.0, 0.0}, {step * (index == 0 ? 0 : index - 1), 0.0, 0.0}, kSize, index);
+  const HostFrame truth = renderFrame(flatWall(), camera, kSize, light, Noise::None);
+  NoisyFrame frame{.noisy = truth, .truth = truth};
   if (samples == 0) return frame;
-  reference::Image<glm::dvec3> sum(kSize);
-  for (std::uint32_t k = 0; k < samples; ++k) {
-    const HostFrame sample = renderFrame(flatWall(), camera(index * samples + k), kSize, light);
-    reference::forEachPixel(kSize, [&](glm::ivec2 p) { sum[p] += sample.lighting[p] / double(samples); });
-  }
   reference::forEachPixel(kSize, [&](glm::ivec2 p) {
-    for (int c = 0; c < 3; ++c) frame.noisy.lighting[p][c] = reference::roundToHalf(sum[p][c]);
+    double brightness = 0.0;
+    for (std::uint32_t k = 0; k < samples; ++k) brightness += noiseOfSample(p, index * samples + k) / samples;
+    for (int c = 0; c < 3; ++c)
+      frame.noisy.lighting[p][c] = reference::roundToHalf(frame.truth.lighting[p][c] * brightness);
   });
   return frame;
 }

@@ -38,11 +38,6 @@ const glm::dvec3 kWallPoint(0.0, 0.0, -5.0);
 const glm::dvec3 kWallNormal = glm::normalize(glm::dvec3(0.3, 0.2, 1.0));
 const glm::dvec3 kBackNormal(0.0, 0.0, 1.0);
 
-/// A random number, uniform in (0, 1), from a hash of pixel, frame and channel.
-double uniformSample(glm::ivec2 p, std::uint32_t frameIndex, std::uint32_t channel) {
-  return (reference::pcg4d({p, frameIndex, channel + 1000U}).x + 0.5) * 0x1p-32;
-}
-
 glm::dvec3 roundToHalf(glm::dvec3 v) {
   return {reference::roundToHalf(v.x), reference::roundToHalf(v.y), reference::roundToHalf(v.z)};
 }
@@ -214,6 +209,11 @@ FrameDescription orthographicCameraAt(glm::dvec3 position, glm::dvec3 previousPo
   return camera;
 }
 
+double noiseOfSample(glm::ivec2 p, std::uint32_t frameIndex) {
+  const double uniform = (reference::pcg4d({p, frameIndex, 1000U}).x + 0.5) * 0x1p-32;
+  return -std::log(uniform);
+}
+
 HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::ivec2 size, const Light& light,
                       Noise noise) {
   HostFrame frame;
@@ -252,7 +252,7 @@ HostFrame renderFrame(const Scene& scene, const FrameDescription& camera, glm::i
     frame.motion[p] = roundToHalf(glm::dvec3(previousPixel - reference::pixelCentre(p), -before.z - hit->distance));
 
     glm::dvec3 radiance = hit->diffuse ? light(point, glm::normalize(hit->shadingNormal)) : glm::dvec3(0.0);
-    if (noise == Noise::Exponential) radiance *= -std::log(uniformSample(p, camera.frameIndex, 0));
+    if (noise == Noise::Exponential) radiance *= noiseOfSample(p, camera.frameIndex);
     frame.lighting[p] = roundToHalf(radiance);
   });
   return frame;

@@ -67,6 +67,9 @@ enum class Noise {
   Exponential,  ///< Relative standard deviation 1, as at one sample per pixel.
 };
 
+/// The factor of `Noise::Exponential` for a pixel's sample in a frame, from a hash.
+double noiseOfSample(glm::ivec2 p, std::uint32_t frameIndex);
+
 /// A camera at `position` that looks down -Z; field of view 53 degrees across the height.
 FrameDescription cameraAt(glm::dvec3 position, glm::dvec3 previousPosition, glm::ivec2 size, std::uint32_t frameIndex);
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +6,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -550,13 +550,10 @@ TEST_F(ProgramTest, SaysWhereACutIs) {
   EXPECT_NE(result.out.find("history is reset at frame 2"), std::string::npos) << result.out;
 }
 
-// Each method at one of the sizes. Tests of the passes cross methods and sizes, but no pictures of one row or column.
+// Tests of the passes cross methods and sizes.
 TEST_F(ProgramTest, TinyAndOddSizesComeOutFinite) {
-  constexpr std::array kSizes{std::array{1, 5}, std::array{7, 1}};
-  std::size_t next = 0;
-  for (const std::string& method : denoiserNames()) {
+  for (const auto& [method, width, height] : {std::tuple("walr", 1, 5), std::tuple("svgf", 7, 1)}) {
     SCOPED_TRACE(method);
-    const auto [width, height] = kSizes.at(next++ % kSizes.size());
     SyntheticSequence(input, width, height).write(0, 1);
     expectSuccess(denoise({"--method", method}));
     const Image out = readPlane(output / "denoised_0001.exr");
