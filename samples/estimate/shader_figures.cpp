@@ -44,6 +44,7 @@ FigureTable tableOf(const nlohmann::json& json) {
     table.estimates.push_back({.variant = entry.at("variant"),
                                .cyclesPerPixel = optional(entry.at("cycles_per_pixel")),
                                .megabytes = entry.at("megabytes"),
+                               .memoryMegabytes = entry.at("memory_megabytes"),
                                .microseconds = optional(entry.at("microseconds"))});
   }
   return table;
@@ -68,6 +69,7 @@ Json toJson(const MethodEstimate& estimate) {
   return {{"variant", estimate.variant},
           {"cycles_per_pixel", rounded(estimate.cyclesPerPixel)},
           {"megabytes", rounded(estimate.megabytes)},
+          {"memory_megabytes", rounded(estimate.memoryMegabytes)},
           {"microseconds", rounded(estimate.microseconds)}};
 }
 

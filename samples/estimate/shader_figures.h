@@ -26,7 +26,8 @@ struct ShaderFigures {
 struct MethodEstimate {
   std::string variant;  ///< As `allMethods` of the benchmark names it, and "specular" or "both" for these lights.
   std::optional<double> cyclesPerPixel;
-  double megabytes = 0.0;
+  double megabytes = 0.0;        ///< That the passes of a frame read and write.
+  double memoryMegabytes = 0.0;  ///< Of histories and transient textures.
   std::optional<double> microseconds;
 };
 

@@ -16,7 +16,6 @@ import write
 import corpus
 import entries
 import records
-import rendering
 from corpus_page import shown_places
 from figures_page import SHOWN
 
@@ -42,11 +41,7 @@ def measure(cache, walr):
     output = pathlib.Path(cache) / "figures"
     corpus.main(["run", "--part", "figures", "--output", str(output), "--cache", str(cache), "--walr", str(walr)])
     kept = json.loads((output / "results.json").read_text(encoding="utf-8"))
-    # Costs at 1920 x 1080 are those of the methods, whatever the sequence.
-    sequence = rendering.Cache(cache, walr).sequence(next(iter(entries.figures().values())))
-    bench = json.loads((pathlib.Path(cache) / "bench" / sequence.name / "bench.json").read_text(encoding="utf-8"))
-    costs = {variant["name"]: records.costs_at_1080p(variant) for variant in bench["variants"]}
-    records.record_corpus(NAME, output, shown_places, {"means": means_of(kept), "costs": costs})
+    records.record_corpus(NAME, output, shown_places, {"means": means_of(kept)})
 
 
 def run(description, measure):

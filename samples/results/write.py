@@ -5,12 +5,11 @@
     write.py --check                fails if a page differs from what the figures give
     write.py corpus NAME FOLDER     records a run of samples/corpus/corpus.py; NAME is the height of its pictures, such as 1080
     write.py cycles FOLDER          records the comparison of methods in FOLDER/bench.json, and its pictures
-    write.py costs FOLDER           records only the bytes and memory of these methods, after a change of no result
     write.py gpu FOLDER             records the times in FOLDER/gpu_report.json
 
-Each of the last four then writes everything anew. figures.py, reflections.py and samples/corpus/rates.py record what they measure
+Each of the last three then writes everything anew. figures.py, reflections.py and samples/corpus/rates.py record what they measure
 themselves. Plots need matplotlib.
-Estimated GPU times come from samples/estimate/shader_figures.json, which `cmake --build build --target update_costs` writes.
+Estimated GPU times, bytes and memory come from samples/estimate/shader_figures.json, which `cmake --build build --target update_costs` writes.
 """
 import pathlib
 import sys
@@ -95,7 +94,7 @@ def main(arguments):
         sys.exit("\n".join(wrong()) or 0)
     if len(arguments) == 3 and arguments[0] == "corpus":
         records.record_corpus(*arguments[1:], corpus_page.shown_places)
-    elif len(arguments) == 2 and arguments[0] in ("cycles", "costs", "gpu"):
+    elif len(arguments) == 2 and arguments[0] in ("cycles", "gpu"):
         records.record_bench(*arguments)
         if arguments[0] == "cycles":
             import plots

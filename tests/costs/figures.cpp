@@ -23,6 +23,7 @@ MethodEstimate estimateOf(const MethodCosts& method, const Machine& machine) {
   return {.variant = variantName(method.name),
           .cyclesPerPixel = method.cyclesPerPixel(),
           .megabytes = bytes * 1e-6,
+          .memoryMegabytes = static_cast<double>(method.memoryBytes) * 1e-6,
           .microseconds = method.microseconds(machine)};
 }
 
@@ -91,7 +92,7 @@ std::vector<std::string> differences(const FigureTable& committed, const FigureT
       return x.has_value() == y.has_value() && (!x || std::abs(*x - *y) < 0.1);
     };
     return a.variant == b.variant && near(a.cyclesPerPixel, b.cyclesPerPixel) && near(a.megabytes, b.megabytes) &&
-           near(a.microseconds, b.microseconds);
+           near(a.memoryMegabytes, b.memoryMegabytes) && near(a.microseconds, b.microseconds);
   };
   compare(
       committed.estimates, now.estimates, sameEstimate,

@@ -100,7 +100,8 @@ MethodCosts methodCosts(const MethodName& name, fg::Extent extent, NullDevice& d
   if (!result.ok())
     throw std::runtime_error("the frame graph of " + name.text() + " does not compile:\n" + result.text());
 
-  MethodCosts costs = {name, extent, {}};
+  const fg::MemoryReport& memory = result.plan.memory;
+  MethodCosts costs = {name, extent, {}, memory.persistentBytes + memory.transientPeakBytes};
   for (const PassWork& work : workOf(graph, result.plan)) {
     costs.passes.push_back(costsOf(work, device, trips));
   }

@@ -60,6 +60,7 @@ struct MethodCosts {
   MethodName name;
   fg::Extent extent;
   std::vector<PassCosts> passes;
+  std::uint64_t memoryBytes = 0;  ///< Of the plan: histories and transient textures.
 
   [[nodiscard]] double pixels() const { return static_cast<double>(extent.width) * extent.height; }
   /// Cycles of SIMDs of Navi 21 a pixel of the picture.

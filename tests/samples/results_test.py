@@ -163,19 +163,6 @@ class Recording(unittest.TestCase):
             self.assertEqual((folder / "places_360.webp").read_bytes(), b"picture")
             self.assertIn(shown[-1], said.call_args[0][0], "a place that nobody has described")
 
-    def test_costs_replace_those_of_the_same_methods_only(self):
-        cost = {"width": 1920, "height": 1080, "bytes_read_per_pixel": 3.0, "bytes_written_per_pixel": 2.0,
-                "persistent_bytes": 1e6, "transient_peak_bytes": 2e6}
-        data = {"commit": "0123456789abcdef", "variants": [{"name": "walr", "costs": [cost]}]}
-        kept = {"methods": {"walr": {"bytes": 1, "sequences": {"s": 2}}}}
-        expected = {"bytes": 5.0, "megabytes": 3.0, "sequences": {"s": 2}}
-        self.assertEqual(records.keep_costs(data, kept), {"costs_commit": "0123456789ab", "methods": {"walr": expected}})
-        for methods, named in (({"flr": {}}, "flr"), ({"walr": {}}, "1920 x 1080")):
-            data["variants"][0]["costs"] = [cost] if "flr" in methods else []
-            with self.assertRaises(SystemExit) as caught:
-                records.keep_costs(data, {"methods": methods})
-            self.assertIn(named, str(caught.exception))
-
     def test_times_on_a_gpu_keep_the_passes_of_the_methods_whose_passes_are_shown(self):
         def spread(median):
             return {"median": median, "p5": median / 2, "p95": median * 2}

@@ -37,7 +37,7 @@ def standing(runs, baseline, figures):
 
 
 def methods_table(kept, gpu):
-    estimates = costs_text.estimated_times()
+    costs = costs_text.static_costs()
     header = ["method"]
     for sequence in kept["noise"]:
         header += [f"`{sequence}`: RMSE", *list(LABELS.values())[1:]]
@@ -46,7 +46,7 @@ def methods_table(kept, gpu):
         time = times(method)
         rows.append([f"`{name}`", *(number(s[f], DECIMALS[f]) for s in method["sequences"].values() for f in LABELS),
                      "-" if time is None else f"{time[0]:.2f} ({time[1]:.2f} to {time[2]:.2f})",
-                     *costs_text.cells(name, method, gpu, estimates)])
+                     *costs_text.cells(name, gpu, costs)])
     return table([*header, "relative time", *costs_text.HEADINGS], rows)
 
 
@@ -104,10 +104,4 @@ trails, and seams that do not stay with their surface show there.*
 At commit {kept['commit']} ({kept['compiler']}) on {kept['device']}, {kept['driver']}, with
 
 {indented(kept['command'])}
-""" + costs_note(kept)
-
-
-def costs_note(kept):
-    if "costs_commit" not in kept:
-        return ""
-    return f"\nBytes and memory are those of commit {kept['costs_commit']}. No change between the two commits alters a picture of these sequences.\n"
+"""

@@ -48,8 +48,9 @@ def error(kept, entry, method):
 
 def readme_part(kept, gpu):
     """A small table, its terms, and one plot."""
+    costs = costs_text.static_costs()
     rows = [[f"`{m}`", number(over_baseline(kept, m)[0], 2), number(kept["means"][m]["flip"], 3),
-             number(kept["means"][m]["flicker"], 4), gpu_time(gpu, m), f"{kept['costs'][m]['bytes']:.0f}"] for m in headline(kept)]
+             number(kept["means"][m]["flicker"], 4), gpu_time(gpu, m), f"{costs[m]['bytes']:.0f}"] for m in headline(kept)]
     intro = filled(f"{frames_text(kept)}. Measured on {kept['date']} at commit {kept['commit']} by `{COMMAND}`, which renders, denoises and "
                    "scores in less than an hour on two cores, and writes this part.")
     return f"""{intro}
@@ -88,9 +89,8 @@ def errors_table(kept):
 
 
 def page(kept, gpu):
-    estimates = costs_text.estimated_times()
-    costs = table(["method", *costs_text.HEADINGS],
-                  [[f"`{m}`", *costs_text.cells(m, kept["costs"][m], gpu, estimates)] for m in methods_of(kept)])
+    found = costs_text.static_costs()
+    costs = table(["method", *costs_text.HEADINGS], [[f"`{m}`", *costs_text.cells(m, gpu, found)] for m in methods_of(kept)])
     lines = lines_of(kept)
     return f"""# Speed against error
 

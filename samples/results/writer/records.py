@@ -3,10 +3,9 @@ import datetime
 import json
 import pathlib
 import re
-import sys
 
 from gpu_page import keep_gpu
-from markdown_text import listed, verdict
+from markdown_text import verdict
 
 RESULTS = pathlib.Path(__file__).resolve().parents[1]
 DATA = RESULTS / "data"
@@ -59,14 +58,6 @@ def day_of(file):
 
 # What is kept of `walr bench` and `walr gpu-report`.
 
-def costs_at_1080p(variant):
-    cost = next((c for c in variant["costs"] if (c["width"], c["height"]) == (1920, 1080)), None)
-    if cost is None:
-        sys.exit(f"bench.json has no costs of {variant['name']} at 1920 x 1080")
-    return {"bytes": round(cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"], 1),
-            "megabytes": round((cost["persistent_bytes"] + cost["transient_peak_bytes"]) / 1e6, 1)}
-
-
 def keep_methods(data):
     """The values of a comparison of methods that the pages show."""
     # Where the sequences lay does not belong to the command.
@@ -75,7 +66,7 @@ def keep_methods(data):
             "device": data["device"]["name"], "driver": data["device"]["driver"], "software": data["device"]["software"],
             "noise": {}, "methods": {}}
     for variant in data["variants"]:
-        kept["methods"][variant["name"]] = {**costs_at_1080p(variant), "sequences": {}}
+        kept["methods"][variant["name"]] = {"sequences": {}}
     for sequence in data["sequences"]:
         noise = [f["reference_noise"] for f in sequence["frames"]]
         kept["noise"][sequence["name"]] = None if None in noise else rounded(mean(noise))
@@ -91,24 +82,11 @@ def keep_methods(data):
     return kept
 
 
-def keep_costs(data, kept):
-    """The comparison that is kept, with the costs of another run and its commit."""
-    costs = {v["name"]: costs_at_1080p(v) for v in data["variants"]}
-    missing = [name for name in kept["methods"] if name not in costs]
-    if missing:
-        sys.exit(f"bench.json lacks {listed(missing)}")
-    methods = {name: {**method, **costs[name]} for name, method in kept["methods"].items()}
-    return {**kept, "costs_commit": data["commit"][:12], "methods": methods}
-
-
 def record_bench(name, folder):
-    """Takes a measurement of these programs from its folder. name: cycles, gpu or costs."""
+    """Takes a measurement of these programs from its folder. name: cycles or gpu."""
     file = pathlib.Path(folder) / ("gpu_report.json" if name == "gpu" else "bench.json")
     data = json.loads(file.read_text(encoding="utf-8"))
-    if name == "costs":
-        save("cycles", keep_costs(data, load("cycles")))
-    else:
-        save(name, {"date": day_of(file), **(keep_gpu if name == "gpu" else keep_methods)(data)})
+    save(name, {"date": day_of(file), **(keep_gpu if name == "gpu" else keep_methods)(data)})
 
 
 # What is kept of runs of the corpus.
