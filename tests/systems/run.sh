@@ -49,6 +49,7 @@ cp /etc/hosts "$root/etc/hosts"
 chroot "$root" useradd --create-home --shell /bin/bash user
 echo 'user ALL=(ALL) NOPASSWD: ALL' >"$root/etc/sudoers.d/user"
 git clone --quiet --no-hardlinks "$here" "$root/home/user/walr"
+commit=$(git -C "$root/home/user/walr" rev-parse --short HEAD)
 chroot "$root" chown -R user: /home/user/walr
 
 mount -t proc proc "$root/proc"
@@ -75,7 +76,7 @@ for command in "$@"; do
 done
 
 echo
-echo "$system: $(. "$root/etc/os-release" && echo "$PRETTY_NAME"), walr $(git rev-parse --short HEAD), $(date +%Y-%m-%d), $(nproc) cores"
+echo "$system: $(. "$root/etc/os-release" && echo "$PRETTY_NAME"), walr $commit, $(date +%Y-%m-%d), $(nproc) cores"
 for package in g++ clang cmake libvulkan1 mesa-vulkan-drivers python3; do
   chroot "$root" dpkg-query --show --showformat='  ${Package} ${Version}\n' "$package" 2>/dev/null || true
 done
