@@ -58,14 +58,15 @@ TEST_F(SequenceTest, ReadsBlenderFramesUnchanged) {
   EXPECT_TRUE(sequence.read(0).resetHistory);
 }
 
-// Blender's vectors have y up (its manual, "Vector pass"). A still wall moves against a camera that moves right and up:
-// where a pixel lay in the previous frame, by the cameras, is where motion leads.
+// Blender's vectors point to the previous position, with y up. The camera moves to the right and up past a still wall,
+// so the cameras tell where a point of the wall lay in the previous frame.
 TEST_F(SequenceTest, MotionOfBlenderLeadsToThePreviousPlace) {
   files.write(0, 1);
   editCameras([](nlohmann::json& frames) {
-    for (const int column : {12, 13}) frames[1]["view"][column] = column == 12 ? -1.0 : -3.0;
+    frames[1]["view"][12] = -1.0;
+    frames[1]["view"][13] = -3.0;
   });
-  // In pixels: the wall is 4 units away, and 6 x 4 pixels show 8 x 8 units of it.
+  // The camera moved by 1 and 3 units. A picture of 6 x 4 pixels shows 8 x 8 units of the wall.
   files.writeFrame(1, [](Channels& channels) {
     std::ranges::fill(channels["Vector.X"].values(), 0.75F);
     std::ranges::fill(channels["Vector.Y"].values(), 1.5F);

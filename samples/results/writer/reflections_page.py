@@ -1,7 +1,7 @@
 """The page of errors of specular light, from what reflections.py measured."""
 import json
 
-from costs_text import FIGURES_FILE
+import costs_text
 from cycles_page import DECIMALS, LABELS
 from markdown_text import filled, number, over, table
 from records import mean
@@ -47,15 +47,13 @@ def standing(kept):
 
 
 def costs_table():
-    static = json.loads(FIGURES_FILE.read_text())
-    found = {estimate["variant"]: estimate for estimate in static["estimates"]}
-    pixels = static["width"] * static["height"]
+    found = costs_text.static_costs()
     rows = []
     for method in ("walr", "svgf", "accumulate"):
         for lights, name in (("diffuse", method), ("specular", f"{method} specular"), ("both", f"{method} both")):
             cost = found[name]
             rows.append([f"`{method}`", lights, number(cost["microseconds"], 0), over(cost["microseconds"], found[method]["microseconds"]),
-                         number(1e6 * cost["megabytes"] / pixels, 0), over(cost["megabytes"], found[method]["megabytes"])])
+                         number(cost["bytes"], 0), over(cost["bytes"], found[method]["bytes"])])
     return table(["method", "lights", "estimated GPU time, us", "over diffuse alone", "bytes per pixel", "over diffuse alone"], rows)
 
 
@@ -94,5 +92,5 @@ frame before, along the surface's motion. Red: brighter. Blue: darker. Grey: the
 
 
 def resolution():
-    static = json.loads(FIGURES_FILE.read_text())
+    static = json.loads(costs_text.FIGURES_FILE.read_text())
     return f"{static['width']} x {static['height']}"
