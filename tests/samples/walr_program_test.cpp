@@ -550,9 +550,11 @@ TEST_F(ProgramTest, SaysWhereACutIs) {
   EXPECT_NE(result.out.find("history is reset at frame 2"), std::string::npos) << result.out;
 }
 
-// Tests of the passes cross methods and sizes.
+// Pictures of one column or row. DenoiserTest.IsFiniteForAnyInputAndSize has them for the other methods.
 TEST_F(ProgramTest, TinyAndOddSizesComeOutFinite) {
-  for (const auto& [method, width, height] : {std::tuple("walr", 1, 5), std::tuple("svgf", 7, 1)}) {
+  for (const auto& [method, width, height] :
+       {std::tuple("walr", 1, 5), std::tuple("svgf", 7, 1), std::tuple("walr_paper", 1, 5), std::tuple("refwlr", 7, 1),
+        std::tuple("none", 7, 1)}) {
     SCOPED_TRACE(method);
     SyntheticSequence(input, width, height).write(0, 1);
     expectSuccess(denoise({"--method", method}));
