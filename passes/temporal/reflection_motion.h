@@ -12,7 +12,7 @@ namespace walr {
 /// Settings of the search for the place of reflected light in the previous frame.
 struct ReflectionMotionSettings {
   float surfaceFrom = 0.42F;
-  float historyPerLobe = 2.0F;
+  float historyPerLobe = 0.25F;
 
   void visit(SettingVisitor& v) {
     v.visit({"reflection.surface-from",

@@ -319,14 +319,14 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
     Candidate image = candidateFrom(imageAt, there, objectBefore);
     // No picture tells angles below half a pixel apart.
     const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
-    // Still mirrors need one step. Moving ones need more, and as long as the miss shortens history, they take them.
+    // Still mirrors need one step. Moving ones need more, and take them as long as they miss by more than the lobe.
     for (int i = 0; i < kMostNewtonSteps && own.roughness <= kNewtonUpTo && there.whole; ++i) {
       const vec2 nearer = image.position + newtonStep(there, objectBefore, image.missed) * frame.pixelFromPreviousPixel;
       there = surfaceBefore(tapsAt(nearer), sought);
       const Candidate stepped = candidateFrom(nearer, there, objectBefore);
       if (!(stepped.miss < image.miss)) break;
       image = stepped;
-      if (image.miss * constants.maxHistory <= allowed * constants.historyPerLobe) break;
+      if (image.miss <= allowed) break;
     }
     if (image.miss < best.miss) {
       best = image;

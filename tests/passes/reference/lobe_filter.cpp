@@ -29,18 +29,24 @@ class Lobes {
   [[nodiscard]] double weight(glm::ivec2 p, glm::ivec2 q, bool hasLight) const {
     const glm::dvec3 way =
         direction(q) + (position(q) - position(p)) * (reflectors_[p].inverseDistance / guides_[p].depth);
+    const bool mirror = hasLight && isMirror(p);
     const double turn = glm::distance(glm::normalize(way), direction(p)), wider = angle(q) - angle(p);
-    const double part = std::max(std::clamp(1.6 - 5.0 * angle(p), 0.7, 1.4) * angle(p), 1e-4);
-    const double inverseSquare = (hasLight ? 1.0 / (part * part) : 0.0) + 1.0 / (0.41 * 0.41);
+    const double part = std::clamp(1.6 - 5.0 * angle(p), 0.7, 1.4) * std::max(angle(p), 0.02);
+    const double widest = 1.0 / (0.41 * 0.41), narrowest = widest + (hasLight ? 1.0 / (part * part) : 0.0);
     const double plane = std::abs(glm::dot(normal(p), position(q) - position(p))) / guides_[p].depth;
-    return std::exp(-0.5 * (turn * turn + wider * wider) * inverseSquare - plane / 0.02);
+    const double lobe = 0.5 * (turn * turn * (mirror ? widest : narrowest) + wider * wider * narrowest) + plane / 0.02;
+    return std::exp(-lobe) * std::exp2(mirror ? -5.0 * std::abs(nearness(q) - nearness(p)) : 0.0);
   }
+
+  [[nodiscard]] bool isMirror(glm::ivec2 p) const { return reflectors_[p].roughness < 0.1; }
 
  private:
   [[nodiscard]] glm::dvec3 ray(glm::ivec2 p) const { return rayThrough(frame_.constants.rayFromPixel, pixelCentre(p)); }
   [[nodiscard]] glm::dvec3 position(glm::ivec2 p) const { return ray(p) * guides_[p].depth; }
   [[nodiscard]] glm::dvec3 normal(glm::ivec2 p) const { return octahedralDecode(guides_[p].features); }
   [[nodiscard]] glm::dvec3 direction(glm::ivec2 p) const { return glm::reflect(glm::normalize(ray(p)), normal(p)); }
+  /// In octaves.
+  [[nodiscard]] double nearness(glm::ivec2 p) const { return std::log2(std::max(reflectors_[p].inverseDistance, 1e-3)); }
   [[nodiscard]] double angle(glm::ivec2 p) const { return 2.0 * std::pow(reflectors_[p].roughness, 2.0); }
 
   const HostFrame& frame_;
@@ -100,7 +106,7 @@ Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides,
       }
       const bool own = hasLight(p);
       const double ownLuminance = luminance(light[p].colour);
-      const double unit = 4.0 * deviation + 1e-3 * ownLuminance + 1e-7;
+      const double unit = (lobes.isMirror(p) ? 1.0 : 4.0) * deviation + 1e-3 * ownLuminance + 1e-7;
       glm::dvec3 colour(0.0);
       double mixed = 0.0, total = 0.0;
       forTaps(p, spacing, [&](glm::ivec2 q, glm::ivec2 tap) {

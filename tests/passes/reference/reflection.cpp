@@ -258,9 +258,8 @@ Reflected Search::find() {
     if (!(stepped < imageMiss)) break;
     imageMiss = stepped;
     imageAt += step;
-    const double full = allowed * double(reflection_.historyPerLobe) / double(settings_.maxHistory);
-    result_.undecided |= close(imageMiss, full, kCloseMiss);
-    if (imageMiss <= full) break;
+    result_.undecided |= close(imageMiss, allowed, kCloseMiss);
+    if (imageMiss <= allowed) break;
   }
   // Rays that both hit differ by rounding only.
   const double rounding = 2e-5;
