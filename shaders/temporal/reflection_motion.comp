@@ -55,7 +55,6 @@ layout(push_constant) uniform PushConstants {
 #include "temporal/reprojection.glsl"
 
 const float kNewtonUpTo = 0.3;            // Roughness.
-const int kMostNewtonSteps = 3;
 const float kSharpUpTo = 0.1;             // Roughness up to which the own sample tells the distance.
 const float kLongestNewtonStep = 8.0;     // Pixels.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
@@ -315,18 +314,14 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
 
     // Objects that move carry their images along.
     const vec2 imageAt = surfaceAt + imageOffset(p, own, inverseDistance);
-    Before there = surfaceBefore(tapsAt(imageAt), sought);
+    const Before there = surfaceBefore(tapsAt(imageAt), sought);
     Candidate image = candidateFrom(imageAt, there, objectBefore);
     // No picture tells angles below half a pixel apart.
     const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
-    // Still mirrors need one step. Moving ones need more, and take them as long as they miss by more than the lobe.
-    for (int i = 0; i < kMostNewtonSteps && own.roughness <= kNewtonUpTo && there.whole; ++i) {
+    if (own.roughness <= kNewtonUpTo && there.whole) {
       const vec2 nearer = image.position + newtonStep(there, objectBefore, image.missed) * frame.pixelFromPreviousPixel;
-      there = surfaceBefore(tapsAt(nearer), sought);
-      const Candidate stepped = candidateFrom(nearer, there, objectBefore);
-      if (!(stepped.miss < image.miss)) break;
-      image = stepped;
-      if (image.miss <= allowed) break;
+      const Candidate stepped = candidateFrom(nearer, surfaceBefore(tapsAt(nearer), sought), objectBefore);
+      if (stepped.miss < image.miss) image = stepped;
     }
     if (image.miss < best.miss) {
       best = image;

@@ -244,7 +244,7 @@ Reflected Search::find() {
   double imageMiss = missAt(imageAt);
   const double lobe = 2.0 * std::atan(own.roughness * own.roughness);
   const double allowed = std::max(lobe, 0.5 * std::abs(double(frame_.constants.rayFromPixel.y)));
-  for (int i = 0; i < 3 && own.roughness <= 0.3 && whole; ++i) {
+  if (own.roughness <= 0.3 && whole) {
     // Newton's method on the miss, with differences over a pixel.
     const auto missBeyond = [&](glm::dvec2 beyond) { return miss(*shownAt(imageAt, surface, whole, beyond), object); };
     const glm::dvec3 m = missBeyond({});
@@ -255,11 +255,10 @@ Reflected Search::find() {
     step *= std::min(1.0, 8.0 / glm::length(step));
     const double stepped = missAt(imageAt + step);
     result_.undecided |= close(stepped, imageMiss, kCloseMiss);
-    if (!(stepped < imageMiss)) break;
-    imageMiss = stepped;
-    imageAt += step;
-    result_.undecided |= close(imageMiss, allowed, kCloseMiss);
-    if (imageMiss <= allowed) break;
+    if (stepped < imageMiss) {
+      imageMiss = stepped;
+      imageAt += step;
+    }
   }
   // Rays that both hit differ by rounding only.
   const double rounding = 2e-5;
