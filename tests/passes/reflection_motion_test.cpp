@@ -275,7 +275,8 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
 // Kept motion has 9 bits, so that it errs by up to 1/64 of a pixel here, and the surface's, from which the image's is
 // counted, by as much. The rest is single precision, which Newton's method multiplies.
 constexpr double kMotionTolerance = 0.04;
-// The miss is taken at a place that errs within this, which changes it by up to 1/400 of the angle that it is compared with.
+// The miss is taken before motion is rounded, where single precision errs by up to 1/800 of a pixel. That changes it by
+// 1/400 of half a pixel, with which a mirror's miss is compared, and by less of a wider lobe.
 constexpr double kMissTolerance = 1.0 / 400.0;
 // The two candidates of so many pixels miss alike, within a hundredth, or are tested next to a threshold.
 constexpr double kUndecided = 0.03;
@@ -368,8 +369,8 @@ TEST_F(ReflectionMotionTest, AccumulatesAlongTheImage) {
     RecordProperty(name + " surface", std::to_string(surface));
     EXPECT_LT(followed, most * surface) << name;
   };
-  // Reflected light that moves with the surface makes the ratio of errors 1 or more. Bilinear history blurs, which makes
-  // it .09. A filter blurs a pattern as fine as this, too, which makes it .49 in `svgf` and .34 in `walr`.
+  // Reflected light that moves with the surface makes the ratio of errors 1 or more. Bilinear history blurs, which
+  // makes it .09. A filter blurs a pattern as fine as this, too, which makes it .49 in `svgf` and .34 in `walr`.
   expectFollowed("accumulate", error("accumulate", "0.42"), error("accumulate", "0"), 0.3);
   expectFollowed("svgf", error("svgf", "0.42"), error("svgf", "0"), 0.7);
   // Without a setting of reflections, but with anti-aliasing. Along the surface, the ratio is 1.06.

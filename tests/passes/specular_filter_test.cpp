@@ -82,8 +82,8 @@ HostFrame specularFrame(double roughness, double distance, std::uint32_t index) 
   return asSpecular(renderStill(wallFacing({0.0, 0.0, 1.0}), kSize, index), distance, roughness);
 }
 
-// The light of a mirror's two halves, which reflect something near and something as far or farther, in a first frame. Of
-// its noise nothing is known there, so that nothing but the distances tells the halves apart.
+// The light of a mirror's two halves, which reflect something near and something as far or farther, in a first frame.
+// Of its noise nothing is known there, so that nothing but the distances tells the halves apart.
 TEST_F(SpecularFilter, MirrorsDoNotMixWhatIsNearWithWhatIsFar) {
   const auto method = makeDenoiser("walr");
   method->set("accumulation.storage", "half");

@@ -46,7 +46,9 @@ class Lobes {
   [[nodiscard]] glm::dvec3 normal(glm::ivec2 p) const { return octahedralDecode(guides_[p].features); }
   [[nodiscard]] glm::dvec3 direction(glm::ivec2 p) const { return glm::reflect(glm::normalize(ray(p)), normal(p)); }
   /// In octaves.
-  [[nodiscard]] double nearness(glm::ivec2 p) const { return std::log2(std::max(reflectors_[p].inverseDistance, 1e-3)); }
+  [[nodiscard]] double nearness(glm::ivec2 p) const {
+    return std::log2(std::max(reflectors_[p].inverseDistance, 1e-3));
+  }
   [[nodiscard]] double angle(glm::ivec2 p) const { return 2.0 * std::pow(reflectors_[p].roughness, 2.0); }
 
   const HostFrame& frame_;
