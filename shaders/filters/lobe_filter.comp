@@ -52,7 +52,7 @@ layout(r16f) uniform writeonly image2D outDeviation;
 const float kNoSample = -1.0;
 // At which difference of luminance the weight falls to 1/e, in deviations. A mirror shows edges that only light tells.
 const float kLuminanceDeviations = 4.0, kMirrorDeviations = 1.0;
-const float kSideTap = 0.4;              // -log2 of the kernel's weight one tap to the side.
+const float kSideTap = 0.4;  // -log2 of the kernel's weight one tap to the side.
 
 // A work group filters 8 x 8 quads of 2 x 2 pixels, which are as far apart as taps, so that its taps lie in one tile of
 // quads. Other groups filter the quads between.
@@ -100,7 +100,7 @@ Light lightAt(ivec2 q) {
 }
 #endif
 
-shared vec4 tileLobes[kTilePixels];   // Mirrored direction; depth, 0 where the pixel does not count.
+shared vec4 tileLobes[kTilePixels];  // Mirrored direction; depth, 0 where the pixel does not count.
 shared LobeWidth tileWidths[kTilePixels];
 shared uvec2 tileLight[kTilePixels];  // Colour and deviation as halves.
 #ifdef FIRST
