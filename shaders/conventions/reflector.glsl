@@ -5,6 +5,9 @@
 #define WALR_REFLECTOR_GLSL
 #include "conventions/surface.glsl"
 
+// Roughness up to which a pixel reflects one image, so that its own samples tell the distance.
+const float kSharpUpTo = 0.1;
+
 struct ReflectedDistance {
   float inverse;  // The surface's depth over the distance; 0: infinitely far, or not known.
   float frames;

@@ -101,7 +101,7 @@ Light lightAt(ivec2 q) {
 #endif
 
 shared vec4 tileLobes[kTilePixels];  // Mirrored direction; depth, 0 where the pixel does not count.
-shared LobeWidth tileWidths[kTilePixels];
+shared LobeReach tileReaches[kTilePixels];
 shared uvec2 tileLight[kTilePixels];  // Colour and deviation as halves.
 #ifdef FIRST
 shared vec2 tileSamples[kTilePixels];  // Light::square, below 0 unless measured; Light::samples.
@@ -117,7 +117,7 @@ void fillTile() {
     const bool counts = q == inside && light.deviation >= 0.0;
     const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(inside));
     tileLobes[i] = vec4(reflect(normalize(ray), unpackLongNormal(reflector.x)), counts ? z : 0.0);
-    tileWidths[i] = lobeWidth(reflector);
+    tileReaches[i] = lobeReach(reflector);
     tileLight[i] = uvec2(packHalf2x16(light.colour.rg), packHalf2x16(vec2(light.colour.b, light.deviation)));
 #ifdef FIRST
     tileSamples[i] = vec2(light.measured ? light.square : -1.0, light.samples);
@@ -206,17 +206,17 @@ void main() {
   const uvec2 reflector = texelFetch(reflectors, p, 0).xy;
   const vec4 own = tapLight(centre);
   const bool hasLight = tileLobes[centre].w > 0.0;
-  const OwnLobe lobe = ownLobe(p, z, reflector, tileLobes[centre].xyz, tileWidths[centre], hasLight);
+  const OwnLobe lobe = ownLobe(p, z, reflector, tileLobes[centre].xyz, tileReaches[centre], hasLight);
   float guides[9];
   [[unroll]] for (int i = 0; i < 9; ++i) {
     const ivec2 tap = ivec2(i % 3, i / 3) - 1;
     const int index = centre + kTapSpacing * (tap.y * kTileSide + tap.x);
-    guides[i] = i == 4 ? 0.0 : lobeExponent(lobe, vec2(kSpacing * tap), tileLobes[index], tileWidths[index]);
+    guides[i] = i == 4 ? 0.0 : lobeExponent(lobe, vec2(kSpacing * tap), tileLobes[index], tileReaches[index]);
   }
   const float deviation = deviationAround(centre);
   const float ownLuminance = luminance(own.rgb);
   // Luminances that differ by less than the rounding of halves count as equal.
-  const float deviations = isMirror(tileWidths[centre]) ? kMirrorDeviations : kLuminanceDeviations;
+  const float deviations = isMirror(tileReaches[centre]) ? kMirrorDeviations : kLuminanceDeviations;
   const float falloff = hasLight ? kLog2OfE / (deviations * deviation + ownLuminance * 1e-3 + 1e-7) : 0.0;
   vec3 sum = vec3(0.0);
   float variance = 0.0, weights = 0.0;

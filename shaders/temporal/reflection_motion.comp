@@ -55,7 +55,6 @@ layout(push_constant) uniform PushConstants {
 #include "temporal/reprojection.glsl"
 
 const float kNewtonUpTo = 0.3;            // Roughness.
-const float kSharpUpTo = 0.1;             // Roughness up to which the own sample tells the distance.
 const float kLongestNewtonStep = 8.0;     // Pixels.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
 const float kMostNormalChange = 0.5;      // Between pixels that tell the curvature.

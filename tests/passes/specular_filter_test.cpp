@@ -77,13 +77,8 @@ TEST_F(SpecularFilter, AgreesWithDoublePrecision) {
   }
 }
 
-/// Frames of a still wall whose roughness is the same everywhere.
-HostFrame specularFrame(double roughness, double distance, std::uint32_t index) {
-  return asSpecular(renderStill(wallFacing({0.0, 0.0, 1.0}), kSize, index), distance, roughness);
-}
-
-// The light of a mirror's two halves, which reflect something near and something as far or farther, in a first frame.
-// Of its noise nothing is known there, so that nothing but the distances tells the halves apart.
+// The first frame of a mirror whose left half reflects something near. Nothing is known of noise in a first frame, so
+// that nothing but the distance tells the right half apart.
 TEST_F(SpecularFilter, MirrorsDoNotMixWhatIsNearWithWhatIsFar) {
   const auto method = makeDenoiser("walr");
   method->set("accumulation.storage", "half");
@@ -91,7 +86,7 @@ TEST_F(SpecularFilter, MirrorsDoNotMixWhatIsNearWithWhatIsFar) {
   DenoiserRun run(device(), *method, kSize, {.specular = true});
   const auto error = [&](double farDistance) {
     run.reset();
-    HostFrame frame = specularFrame(0.0, 1.0, 0);
+    HostFrame frame = asSpecular(renderStill(wallFacing({0.0, 0.0, 1.0}), kSize), 1.0, 0.0);
     reference::forEachPixel(kSize, [&](glm::ivec2 p) {
       const bool near = p.x < kSize.x / 2;
       frame.lighting[p] = glm::dvec3(near ? 4.0 : 8.0);
