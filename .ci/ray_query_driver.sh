@@ -1,4 +1,4 @@
-# Sourced by tests/run.sh. The software driver of Debian 12 has no ray queries. That of its backports does: this unpacks it
+# Sourced by .ci/run. The software driver of Debian 12 has no ray queries. That of its backports does: this unpacks it
 # into the build folder, beside the system's driver, for the tests that trace on the GPU (tests/gpu_render/CMakeLists.txt).
 
 # If the driver cannot be had, it says so, and those tests skip.
