@@ -16,7 +16,7 @@ using reference::forEachPixel;
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 
 struct Case {
   const char* method;
@@ -93,11 +93,11 @@ TEST_P(DenoiserTest, KeepsConstantLightAndIgnoresPixelsWithoutASample) {
 }
 
 TEST_P(DenoiserTest, IsFiniteForAnyInputAndSize) {
-  // A column, and a row where nothing is remembered.
-  const glm::ivec2 line = GetParam().spatialOnly ? glm::ivec2(7, 1) : glm::ivec2(1, 5);
-  for (const glm::ivec2 size : {glm::ivec2(1, 1), line, glm::ivec2(17, 19), kSize}) {
-    // Without stages that remember, a single pixel is what it is in the first frame.
-    if (GetParam().spatialOnly && size == glm::ivec2(1, 1)) continue;
+  std::vector<glm::ivec2> sizes{{35, 33}, kSize};
+  // A pixel, a column and a row, which without stages that remember are what they are in the first frame. Mesa's CPU
+  // device compiles a shader again where sides of its textures become powers of two: here all of them do.
+  if (!GetParam().spatialOnly) sizes.insert(sizes.end(), {{1, 1}, {1, 4}, {8, 1}});
+  for (const glm::ivec2 size : sizes) {
     const std::unique_ptr<Denoiser> denoiser = makeCase();
     DenoiserRun run(device(), *denoiser, size);
     for (std::uint32_t i = 0; i < 3; ++i) {
