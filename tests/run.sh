@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything, and runs the tests. Needs no GPU. What only those need who change walr is tested by .ci/run.
+# Installs what is missing, builds everything, and runs the tests that matter to users. Needs no GPU. .ci/run runs all tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source .ci/setup.sh
