@@ -17,7 +17,7 @@ namespace {
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 
 /// A camera that moves past a sphere, so that some history is reprojected and some is disoccluded.
 FrameDescription walkingCamera(std::uint32_t frame, glm::ivec2 size) {

@@ -19,7 +19,7 @@ using fg::test::expectContains;
 using fg::test::expectError;
 using fg::test::Timeline;
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 
 FrameDescription walkingCamera(std::uint32_t frame) {
   const glm::dvec3 step(0.06, 0.02, -0.03);

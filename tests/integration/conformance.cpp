@@ -9,7 +9,7 @@
 namespace plugin_host {
 namespace {
 
-constexpr Size kSize{53, 37};
+constexpr Size kSize{45, 37};
 constexpr Feature kFeatures[] = {
     {"FramesWithAReset", &ConformanceTest::hasFramesWithAReset},
     {"MotionWithoutDepth", &ConformanceTest::hasMotionWithoutDepth},

@@ -36,7 +36,7 @@ TEST_F(DispatchListTest, HasHeapsOnlyWithADevice) {
 }
 
 TEST_F(DispatchListTest, EveryMethodGivesThePixelsOfTheOpaqueCall) {
-  constexpr Size kSize{53, 37};
+  constexpr Size kSize{45, 37};
   struct Submission {
     std::size_t frames;
     bool reset;
@@ -85,7 +85,7 @@ TEST_P(DispatchListFeatures, GiveThePixelsOfAPlainHost) {
 INSTANTIATE_TEST_SUITE_P(Every, DispatchListFeatures, testing::ValuesIn(features()), nameOfFeature);
 
 TEST_F(DispatchListTest, AListOfAnotherSizeTakesOverTheHistory) {
-  constexpr Size kSizes[] = {{53, 37}, {55, 39}};
+  constexpr Size kSizes[] = {{45, 37}, {47, 39}};
   constexpr std::size_t kTurns[] = {0, 0, 1, 0};  // By frame.
   expectTheOpaqueCallAtSizes<list_host::Player>(kSizes, kTurns);
 }
@@ -118,7 +118,7 @@ TEST_F(DispatchListTest, ValidationReportsAWrongState) {
       {"the layout in which the host's images leave", WALR_RESOURCE_HOST, &WalrResource::exit, kOtherLayout},
       {"the stage in which the host's images leave", WALR_RESOURCE_HOST, &WalrResource::exit, kOtherStage},
   };
-  constexpr Size kSize{53, 37};
+  constexpr Size kSize{45, 37};
   const WalrCamera camera = cameraAt(0);
   for (const Case& each : cases) {
     const WalrPasses passes = makePasses("accumulate", kSize);

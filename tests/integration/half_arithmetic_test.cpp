@@ -14,7 +14,7 @@
 namespace walr::test::half_arithmetic_test {
 namespace {
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 
 /// What a device was created with: what the library needs, and perhaps shaderFloat16.
 struct CreateInfo {

@@ -22,7 +22,7 @@ namespace {
 using reference::forEachPixel;
 using reference::HostFrame;
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 constexpr const char* kMethods[] = {"walr", "walr_paper", "bmfr", "svgf", "flr", "joint_bilateral", "accumulate"};
 constexpr std::uint8_t kAll = 255;
 

@@ -19,7 +19,7 @@ namespace {
 using reference::HostFrame;
 using Picture = reference::Image<glm::dvec4>;
 
-constexpr glm::ivec2 kSize(66, 50);
+constexpr glm::ivec2 kSize(66, 46);
 constexpr std::uint32_t kFrames = 8;
 const glm::dvec3 kNear(0.0);
 const glm::dvec3 kFar(1e6, 2e5, -5e5);  // Metres: more than 1,000 km away.

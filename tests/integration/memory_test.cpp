@@ -20,7 +20,7 @@
 namespace walr::test::memory_test {
 namespace {
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 
 /// A host's allocator. All memory of the same memory types and required properties comes from one block, which begins
 /// with bytes of the host.

@@ -101,7 +101,7 @@ FrameDescription walkingCamera(bool parallel, std::uint32_t frame, std::uint32_t
 /// Root mean square errors, relative to the light, of the last frame of a walk with several seeds of the noise.
 std::vector<double> errorsOf(const fg::test::TestDevice& device, const Scene& scene, const std::string& method,
                              bool parallel) {
-  constexpr std::uint32_t kFrames = 8;
+  constexpr std::uint32_t kFrames = 5;
   HostedRun run(device, method.c_str(), kSize, parallel ? orthographic() : HostedRun::Options{});
   std::vector<double> errors;
   for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {

@@ -242,7 +242,7 @@ INSTANTIATE_TEST_SUITE_P(Every, QtRhiFeatures, testing::ValuesIn(features()), na
 
 TEST_F(QtRhiTest, RecordsBetweenItsCommandsThroughANewSize) {
   for (const char* method : {"walr", "svgf", "accumulate"}) {
-    Size size{53, 37};
+    Size size{45, 37};
     auto own = std::make_unique<Opaque>(host, api(), info(method, size));
     const auto denoiser = hosted(info(method, size));
     for (std::uint32_t number = 0; number < 4; ++number) {
@@ -267,7 +267,7 @@ TEST_F(QtRhiTest, RecordsBetweenItsCommandsThroughANewSize) {
 
 /// QRhi's own barrier after an image was written between its commands causes a message, even without walr.
 TEST_F(QtRhiTest, MessagesWithinASubmissionAreTheHosts) {
-  constexpr Size kSize{53, 37};
+  constexpr Size kSize{45, 37};
   const auto messagesOf = [&](bool ours) {
     const auto denoiser = hosted(info("none", kSize));
     const int before = host.messages;

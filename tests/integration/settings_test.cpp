@@ -15,7 +15,7 @@ namespace {
 
 using reference::HostFrame;
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 constexpr std::uint32_t kFrames = 6;
 constexpr std::uint32_t kLastFrame = kFrames - 1;
 

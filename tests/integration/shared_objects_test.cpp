@@ -21,7 +21,7 @@ using fg::test::expectContains;
 using fg::test::expectError;
 using Bytes = std::vector<std::byte>;
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 
 /// A view of a walk past a sphere: its own camera beside that of the others.
 struct View {

@@ -33,7 +33,7 @@ class Timings : public fg::test::GpuTest {};
 
 // A frame's queries may be read once the host has waited for it, and that is certain when its slot is used again.
 TEST_F(Timings, OfAFrameAreKnownWhenItsSlotIsUsedAgain) {
-  constexpr glm::ivec2 kSize(53, 37);
+  constexpr glm::ivec2 kSize(45, 37);
   HostedRun run(device(), "walr", kSize, {.timestamps = true, .framesInFlight = 2});
   std::uint32_t recorded = 0;
   const auto frame = [&] {

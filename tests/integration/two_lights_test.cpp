@@ -16,7 +16,7 @@
 namespace plugin_host {
 namespace {
 
-constexpr Size kSize{53, 37};
+constexpr Size kSize{45, 37};
 constexpr std::uint32_t kFrames = 5;
 constexpr std::uint32_t kReset = 3;  ///< The frame that drops the history.
 constexpr std::array kOutputs{"denoised", "history_length", "light_direction", "expected_error"};

@@ -19,7 +19,7 @@ namespace {
 
 using reference::HostFrame;
 
-constexpr glm::ivec2 kSize(53, 37);
+constexpr glm::ivec2 kSize(45, 37);
 
 /// A frame of a camera that moves beside a surface with sky around it.
 struct Take {

@@ -341,7 +341,7 @@ TEST_F(PackedLight, DitherIsEvenOverTheFramesOfAPixel) {
   }
 }
 
-constexpr glm::ivec2 kSize(66, 50);
+constexpr glm::ivec2 kSize(66, 46);
 
 /// Settings of how the temporal stages find their history. Without the share of accumulated light, which would steer
 /// the antilag factor (many_samples_test.cpp): the reference here does not.

@@ -23,7 +23,7 @@ namespace {
 
 using reference::Image;
 
-constexpr glm::ivec2 kSize(53, 37);  // Not a multiple of the tiles.
+constexpr glm::ivec2 kSize(45, 37);  // Not a multiple of the tiles.
 constexpr std::uint32_t kBlock = 4;
 constexpr int kTile = 8;    // Pixels per axis of a tile of the statistics: two blocks.
 constexpr int kBefore = 2;  // Pixels of the first tile before the image: half a block.

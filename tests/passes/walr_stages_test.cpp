@@ -92,7 +92,7 @@ TEST_F(WalrStagesTest, AgreeWithTheReferenceForEveryReplacementWithAndWithoutDis
         settings.regression.repeatCentre = repeatCentre;
         settings.regression.edgeLeak = repeatCentre ? 0.0F : 0.3F;
         settings.regression.sdfFraction = sdfFraction;
-        expectSequence(device(), movingFrames(thinBars(), {66, 50}), settings);
+        expectSequence(device(), movingFrames(thinBars(), {66, 46}), settings);
       }
     }
   }
@@ -101,7 +101,7 @@ TEST_F(WalrStagesTest, AgreeWithTheReferenceForEveryReplacementWithAndWithoutDis
 // Raw storage marks a pixel without a sample by its features, and the light of the sky that its texels hold looks like
 // features.
 TEST_F(WalrStagesTest, AgreeWithTheReferenceForEveryStorageBesideALitSky) {
-  std::vector<HostFrame> frames = movingFrames(skyBesideSurface(), {66, 50});
+  std::vector<HostFrame> frames = movingFrames(skyBesideSurface(), {66, 46});
   for (HostFrame& frame : frames)
     for (std::size_t i = 0; i < frame.depth.pixels().size(); ++i)
       if (frame.depth.pixels()[i] > 1e9) frame.lighting.pixels()[i] = glm::dvec3(3.0, 2.0, 5.0);
@@ -118,7 +118,7 @@ TEST_F(WalrStagesTest, AgreeWithTheReferenceForEveryNumberOfIterations) {
     SCOPED_TRACE(std::to_string(iterations) + " iterations");
     for (WalrPaperSettings settings : {robustWalr(), paperWalr()}) {
       settings.regression.iterations = iterations;
-      expectSequence(device(), movingFrames(stairs(), {66, 50}), settings);
+      expectSequence(device(), movingFrames(stairs(), {66, 46}), settings);
     }
   }
 }
@@ -162,14 +162,14 @@ TEST_F(WalrStagesTest, WholePipelineStaysNearDoublePrecision) {
   WalrPaperSettings responsive = robustWalr();
   responsive.accumulation.antilag.enabled = true;
   for (const WalrPaperSettings& settings : {robustWalr(), responsive}) {
-    WalrRun run(device(), {66, 50}, settings);
+    WalrRun run(device(), {66, 46}, settings);
     for (const NamedScene& named : allScenes()) {
       if (named.name == std::string_view("thin bars")) continue;
       SCOPED_TRACE(std::string(named.name) + (settings.accumulation.antilag.enabled ? ", responsive" : ""));
       run.resetHistory();
       reference::Walr exact(reference::Storage::Exact, settings);
       for (std::uint32_t i = 0; i < 4; ++i) {
-        HostFrame frame = renderStill(named.scene, {66, 50}, i);
+        HostFrame frame = renderStill(named.scene, {66, 46}, i);
         if (i > 0)  // The light falls after the first frame; its halves stay exact.
           for (glm::dvec3& l : frame.lighting.pixels()) l *= 0.25;
         const WalrStages stages = run.frame(frame);

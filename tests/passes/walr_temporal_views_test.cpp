@@ -18,7 +18,7 @@ namespace {
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(66, 50);
+constexpr glm::ivec2 kSize(66, 46);
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
