@@ -204,13 +204,14 @@ TEST_F(Settings, UsesTheHostsPipelineCache) {
   fg::vk::PipelineCache cache(context());
   HostedRun::Options options = counted();
   options.pipelineCache = cache.handle();
-  HostedRun run(device(), "walr", kSize, options);
+  HostedRun run(device(), "accumulate", kSize, options);
   walk(run, 0);
-  set(run.denoiser(), "walr.fit-window", "off");
-  set(run.denoiser(), "blocks.size", "5");
+  EXPECT_EQ(deviceCalls.caches, std::set{cache.handle()});
+  deviceCalls.caches.clear();
+  set(run.denoiser(), "accumulation.rejection", "depth");  // Takes other pipelines.
   walk(run, 1);
   EXPECT_EQ(deviceCalls.caches, std::set{cache.handle()});
-  HostedRun without(device(), "walr", kSize, counted());
+  HostedRun without(device(), "accumulate", kSize, counted());
   walk(without, 0);
   EXPECT_EQ(deviceCalls.caches, std::set<VkPipelineCache>{VK_NULL_HANDLE});
 }
