@@ -113,7 +113,7 @@ TEST_F(Granite, EveryMethodGivesTheSamePixelsThroughResetAndResize) {
   granite_host::Engine engine(host);
   for (const WalrPassType* type : registered.types) {
     if (type->method == VK_FALSE) continue;
-    for (const Size size : {Size{45, 43}, Size{40, 45}}) compare(engine, type->name, size);
+    for (const Size size : {Size{61, 43}, Size{40, 45}}) compare(engine, type->name, size);
   }
 }
 
@@ -130,7 +130,7 @@ TEST_P(GraniteFeatures, GiveThePixelsOfAPlainHost) {
 INSTANTIATE_TEST_SUITE_P(Every, GraniteFeatures, testing::ValuesIn(features()), nameOfFeature);
 
 TEST_F(Granite, FramesInFlightGiveTheSamePixels) {
-  constexpr Size kSize{45, 43};
+  constexpr Size kSize{61, 43};
   constexpr std::uint32_t kFrames = 8;
   granite_host::Engine engine(host);
   const WalrPasses passes = makePasses("walr", kSize);
@@ -240,7 +240,7 @@ TEST_F(Granite, OnlyOneThreadAtATimeCallsWalr) {
 
 // Shows that the other tests would report hazards between submissions.
 TEST_F(Granite, ValidationReportsAHazardBetweenSubmissions) {
-  constexpr Size kSize{45, 43};
+  constexpr Size kSize{61, 43};
   granite_host::Engine engine(host);
   const WalrPasses passes = makePasses("none", kSize);
   engine.build(api(), passes, listOf(passes), kSize.width, kSize.height);

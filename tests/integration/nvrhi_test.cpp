@@ -187,7 +187,7 @@ class Nvrhi : public ConformanceTest {
 
   /// Compare seven frames, with a reset and a new size, with those of a plain Vulkan host.
   void compare(const char* method) {
-    Size size{45, 43};
+    Size size{61, 43};
     auto opaque = std::make_unique<Opaque>(host, api(), info(method, size));
     const auto denoiser = hosted(info(method, size));
     for (std::uint32_t number = 0; number < 7; ++number) {

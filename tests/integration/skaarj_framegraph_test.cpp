@@ -227,7 +227,7 @@ class SkaarjFrameGraph : public PluginTest {};
 TEST_F(SkaarjFrameGraph, EveryMethodGivesTheSamePixels) {
   for (const WalrPassType* type : registered.types) {
     if (type->method == VK_FALSE) continue;
-    for (const Size size : {Size{45, 43}, Size{40, 45}}) {
+    for (const Size size : {Size{61, 43}, Size{40, 45}}) {
       Opaque opaque(host, api(), info(type->name, size));
       const WalrPasses passes = makePasses(type->name, size);
       {

@@ -108,7 +108,7 @@ TEST_F(SparseLight, InGroupsEqualsThatInAMaskToTheBit) {
   for (const Variant& variant : {Variant{"walr", {{"accumulation.storage", "half"}, fixed}},
                                  Variant{"walr", {fixed, {"antialiasing.enabled", "off"}}},
                                  Variant{"walr", {fixed, {"antialiasing.plane-tolerance", "0.02"}}},
-                                 Variant{"walr_paper"}, Variant{"flr"}, Variant{"accumulate"}}) {
+                                 Variant{"walr_paper"}, Variant{"flr"}, Variant{"bmfr"}, Variant{"accumulate"}}) {
     // The patterns differ in one place, which all methods share.
     const bool first = !variant.settings.empty() && variant.settings[0].second == std::string("half");
     for (const LightPattern& pattern : first ? kPatterns : std::vector<LightPattern>{{3, 3}, {2, 2, true}}) {
