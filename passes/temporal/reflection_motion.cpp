@@ -15,8 +15,8 @@ namespace {
 const std::vector<ViewInfo>& reflectionViews() {
   static const std::vector<ViewInfo> kViews{
       {"reflection-motion",
-       "Motion of specular light to the previous frame, x and y in pixels; 1 where it is that of the mirror image",
-       {{"mirror-images", "Z"}}},
+       "Motion of specular light to the previous frame, x and y in pixels; 1 where it is not that of the surface",
+       {{"followed-reflections", "Z"}}},
       {"reflection-history",
        "Longest history of specular light, frames; by how much its ray of the previous frame misses what is reflected, "
        "over the lobe's half angle or half a pixel; 1 where that, or the host's confidence, shortens history",

@@ -1,7 +1,6 @@
-// Where the light that a surface reflects was in the previous frame (passes/SPECULAR.md). It moves with
-// the mirror image of what is reflected, and on rough surfaces with the surface itself. A candidate for its place is
-// tested by the ray that the previous frame's surface reflected there: by how much it misses the point that is
-// reflected now.
+// Where the light that a surface reflects was in the previous frame (passes/SPECULAR.md): where the previous frame's
+// surface reflected the point that is reflected now. A place is judged by how much the reflected ray misses that point,
+// and one step of Newton's method on the miss corrects it. The light of rough surfaces moves with the surface.
 // The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
 // history (confidence.glsl).
 // Needs the geometric normal in a texture of its own. Tests history by the plane of the shading normal, by
@@ -50,15 +49,12 @@ layout(push_constant) uniform PushConstants {
 #define HISTORY previousReflector
 #include "conventions/lobe.glsl"
 #include "temporal/confidence.glsl"
-#include "temporal/mirror_image.glsl"
 #include "conventions/reflector.glsl"
 #include "temporal/reprojection.glsl"
 
-const float kNewtonUpTo = 0.3;            // Roughness.
 const float kLongestNewtonStep = 8.0;     // Pixels.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
-const float kMostNormalChange = 0.5;      // Between pixels that tell the curvature.
-const int kCurvatureStep = 2;             // Pixels.
+const float kFarthestObject = 3000.0;     // Over depth; what is farther is reflected from here.
 const float kMirrorUpTo = 0.05;           // Roughness up to which history must have the distance of what is reflected.
 const float kDistanceTolerance = 1.25;    // Largest ratio of two distances of one thing.
 const float kLeastNearness = 1e-3;        // Depth over distance; what is farther is at one distance.
@@ -72,13 +68,13 @@ struct Reflector {
   float roughness;
 };
 
-// What the pixels of a work group show, and those around it that tell the curvature.
-const int kTileSide = int(gl_WorkGroupSize.x) + 2 * kCurvatureStep;
+// What the pixels of a work group show, and those around it.
+const int kTileSide = int(gl_WorkGroupSize.x) + 2;
 shared vec4 tilePlanes[kTileSide * kTileSide];   // Geometric normal; depth, 0 outside the image.
 shared vec4 tileNormals[kTileSide * kTileSide];  // Shading normal; distance of what is reflected.
 
 void fillTile() {
-  const ivec2 first = ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy) - kCurvatureStep;
+  const ivec2 first = ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy) - 1;
   for (int i = int(gl_LocalInvocationIndex); i < kTileSide * kTileSide; i += 64) {
     const ivec2 there = first + ivec2(i % kTileSide, i / kTileSide);
     const ivec2 q = clamp(there, ivec2(0), textureSize(depth, 0) - 1);
@@ -89,7 +85,7 @@ void fillTile() {
 
 // The place in the tile of the pixel that is `offset` away from this thread's.
 int inTile(ivec2 offset) {
-  const ivec2 q = ivec2(gl_LocalInvocationID.xy) + kCurvatureStep + offset;
+  const ivec2 q = ivec2(gl_LocalInvocationID.xy) + 1 + offset;
   return q.y * kTileSide + q.x;
 }
 
@@ -136,42 +132,6 @@ ReflectedSamples samplesAround(ivec2 p, Reflector own) {
     count += 1.0;
   }
   return ReflectedSamples(nearest, farthest, count > 0.0 ? sum / count : -1.0);
-}
-
-// In units of the depth of the pixel.
-vec2 curvaturesAt(ivec2 p, Reflector own, Incidence incidence) {
-  const float unit = -1.0 / own.position.z;
-  ShapeSums sums = ShapeSums(mat2(0.0), mat2(0.0));
-  vec3 position;
-  [[unroll]] for (int i = 0; i < 9; ++i) {
-    const ivec2 offset = kCurvatureStep * (ivec2(i % 3, i / 3) - 1);
-    if (i == 4 || !showsSurface(p, offset, own, position)) continue;
-    const vec3 change = tileNormals[inTile(offset)].xyz - own.normal;
-    if (dot(change, change) >= kMostNormalChange * kMostNormalChange) continue;
-    addDifference(sums, incidence, (position - own.position) * unit, change);
-  }
-  return curvaturesOf(sums);
-}
-
-// Positions in the previous image are in pixels of this frame's size, and include its jitter.
-
-// Where the mirror image was, relative to its surface, if that is still.
-vec2 imageOffset(ivec2 p, Reflector own, float inverseDistance) {
-  const float z = -own.position.z, eye = length(own.position);
-  const vec3 v = own.position / eye;
-  const Incidence incidence = incidenceOf(v, own.normal);
-  const vec2 curvatures = curvaturesAt(p, own, incidence);
-  const vec2 images = z * imageDistances(z * inverseDistance, curvatures, incidence.cosine);
-  if (isNearEye(images, eye)) return vec2(0.0);
-  const vec3 base = previousPosition(frame.previousViewFromView, own.position);
-  const vec3 step = mat3(frame.previousViewFromView) * v, side = mat3(frame.previousViewFromView) * incidence.across;
-  const vec2 origin = nearPixelOf(frame.previousRayFromPixel, base);
-  const vec2 within = nearPixelOf(frame.previousRayFromPixel, base + step * images.x) - origin;
-  const vec2 across = nearPixelOf(frame.previousRayFromPixel, base + step * images.y) - origin;
-  // Across the plane of incidence, the picture moves along the projection of that direction.
-  const vec2 along = (base.xy * side.z - side.xy * base.z) / frame.previousRayFromPixel.xy;
-  const vec2 t = along * inversesqrt(max(dot(along, along), 1e-30));
-  return within + dot(across - within, t) * t;
 }
 
 // What a pixel of the previous frame must show to be history.
@@ -245,6 +205,13 @@ Before surfaceBefore(HistoryTaps taps, Sought sought) {
   return b;
 }
 
+// Positions in the previous image are in pixels of this frame's size, and include its jitter.
+
+// Of a point that is still, given in the view space of this frame.
+vec2 pixelBefore(vec3 point) {
+  return nearPixelOf(frame.previousRayFromPixel, previousPosition(frame.previousViewFromView, point));
+}
+
 HistoryTaps tapsAt(vec2 position) {
   const vec2 before = position * frame.previousPixelFromPixel - 0.5, base = floor(before);
   return HistoryTaps(ivec2(base), before - base, bvec4(false));
@@ -258,28 +225,36 @@ vec3 missOf(vec3 object, vec3 position, vec3 normal) {
   return reflect(seen, n) - way * inversesqrt(max(dot(way, way), 1e-20));
 }
 
-// A candidate for the place of reflected light in the previous image.
+// A place in the previous image where the light may have been.
 struct Candidate {
   vec2 position;
+  Before before;
   vec3 missed;  // missOf.
   float miss;   // Its length; kNoHistory: there is none.
 };
 
-Candidate candidateFrom(vec2 position, Before b, vec3 object) {
+Candidate candidateAt(vec2 position, Sought sought, vec3 object) {
+  const Before b = surfaceBefore(tapsAt(position), sought);
   const vec3 missed = missOf(object, b.position, b.normal);
-  return Candidate(position, missed, b.found ? length(missed) : kNoHistory);
+  return Candidate(position, b, missed, b.found ? length(missed) : kNoHistory);
 }
 
-// One step of Newton's method on the miss, in pixels of the previous frame.
-vec2 newtonStep(Before b, vec3 object, vec3 miss) {
-  const vec3 x = missOf(object, b.position + b.positionSlopes[0], b.normal + b.normalSlopes[0]) - miss;
-  const vec3 y = missOf(object, b.position + b.positionSlopes[1], b.normal + b.normalSlopes[1]) - miss;
+Candidate nearer(Candidate a, Candidate b) {
+  if (b.miss < a.miss) return b;
+  return a;
+}
+
+// One step of Newton's method on the miss, in pixels.
+vec2 newtonStep(Candidate c, vec3 object) {
+  const Before b = c.before;
+  const vec3 x = missOf(object, b.position + b.positionSlopes[0], b.normal + b.normalSlopes[0]) - c.missed;
+  const vec3 y = missOf(object, b.position + b.positionSlopes[1], b.normal + b.normalSlopes[1]) - c.missed;
   // Least squares: the three components have two degrees of freedom.
   const float xx = dot(x, x), yy = dot(y, y), xy = dot(x, y), determinant = xx * yy - xy * xy;
   if (!(determinant > 1e-6 * xx * yy)) return vec2(0.0);
-  const vec2 right = -vec2(dot(x, miss), dot(y, miss));
+  const vec2 right = -vec2(dot(x, c.missed), dot(y, c.missed));
   const vec2 step = vec2(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
-  return step * min(1.0, kLongestNewtonStep * inversesqrt(max(dot(step, step), 1e-20)));
+  return step * min(1.0, kLongestNewtonStep * inversesqrt(max(dot(step, step), 1e-20))) * frame.pixelFromPreviousPixel;
 }
 
 // The place of a pixel's reflected light in the previous frame.
@@ -288,8 +263,8 @@ struct ReflectionMotion {
   bvec4 taps;     // Which are accepted.
   float history;  // Longest, frames.
   float miss;     // Over the half angle that it is compared with.
-  bool image;     // The mirror image is followed.
-  ReflectedSamples samples;  // Only with DISTANCES, or where a mirror image is a candidate.
+  bool followed;  // It is another place than the surface's.
+  ReflectedSamples samples;  // Only with DISTANCES, or below constants.surfaceFrom.
 };
 
 ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
@@ -305,28 +280,22 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   if (kDistances || own.roughness < constants.surfaceFrom) result.samples = samplesAround(p, own);
   if (own.roughness < constants.surfaceFrom) {
     sought.inverses = soughtInverses(own, result.samples);
-    const float inverseDistance = -result.samples.nearest / own.position.z;
-    const vec3 mirrored = reflect(normalize(own.position), own.normal);
-    const vec3 object = own.position + mirrored / max(inverseDistance, -1.0 / (kFarthestImage * own.position.z));
+    const float distance = -own.position.z / max(result.samples.nearest, 1.0 / kFarthestObject);
+    const vec3 seen = normalize(own.position);
+    const vec3 object = own.position + distance * reflect(seen, own.normal);
     const vec3 objectBefore = previousPosition(frame.previousViewFromView, object);
-    Candidate best = candidateFrom(surfaceAt, surfaceBefore(tapsAt(surfaceAt), sought), objectBefore);
-
-    // Objects that move carry their images along.
-    const vec2 imageAt = surfaceAt + imageOffset(p, own, inverseDistance);
-    const Before there = surfaceBefore(tapsAt(imageAt), sought);
-    Candidate image = candidateFrom(imageAt, there, objectBefore);
+    Candidate best = candidateAt(surfaceAt, sought, objectBefore);
+    if (own.roughness <= kSharpUpTo) {
+      // Objects that move carry their images along.
+      const vec2 offset = pixelBefore(own.position + distance * seen) - pixelBefore(own.position);
+      best = nearer(best, candidateAt(surfaceAt + offset, sought, objectBefore));
+    }
+    if (best.before.whole)
+      best = nearer(best, candidateAt(best.position + newtonStep(best, objectBefore), sought, objectBefore));
+    result.followed = best.position != surfaceAt;
+    if (result.followed) result.motion = keepableMotion(best.position - frame.jitterDelta - pixelCentre(p));
     // No picture tells angles below half a pixel apart.
     const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
-    if (own.roughness <= kNewtonUpTo && there.whole) {
-      const vec2 nearer = image.position + newtonStep(there, objectBefore, image.missed) * frame.pixelFromPreviousPixel;
-      const Candidate stepped = candidateFrom(nearer, surfaceBefore(tapsAt(nearer), sought), objectBefore);
-      if (stepped.miss < image.miss) image = stepped;
-    }
-    if (image.miss < best.miss) {
-      best = image;
-      result.image = true;
-      result.motion = keepableMotion(image.position - frame.jitterDelta - pixelCentre(p));
-    }
     result.miss = best.miss / allowed;
     result.history = min(constants.historyPerLobe / max(result.miss, 1e-6), constants.maxHistory);
   }
@@ -372,7 +341,7 @@ ReflectedDistance meanDistance(ivec2 p, Reflector own, ReflectionMotion m) {
 vec3 viewOf(ivec2 p, Reflector own) {
   const ReflectionMotion m = reflectionMotionAt(p, own);
   switch (view) {
-    case 0u: return vec3(m.motion, m.image);
+    case 0u: return vec3(m.motion, m.followed);
     case 1u: return vec3(m.history, min(m.miss, kLargestHalf), any(m.taps) && m.history < constants.maxHistory);
   }
   return vec3(0.0);

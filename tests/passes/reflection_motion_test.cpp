@@ -221,29 +221,35 @@ struct OpticsCase {
 // turns the mirrored ray by up to 2 sqrt(2) 2^-12 = 7e-4 radians, differently from pixel to pixel; over the turn from
 // one pixel to the next, which is 1/kPixels (1 + 2 distance / (radius cos)) = 1.5e-3 (radius 5) to 1.2e-2 (radius 0.3),
 // this is half a pixel to a sixteenth at most. A fifth of the most is allowed for the mean, and half of it, or a bit
-// more, for 99 in 100.
+// more, for 99 in 100. One step of Newton's method leaves an error of second order. At grazing angles (.019 and .025
+// pixels) and beyond a focus (.24 and .61) it is the larger one, and a quarter more is allowed.
 TEST_F(ReflectionMotionTest, AgreesWithOptics) {
   const OpticsCase cases[]{
       {"flat", {kInfinity, 0.4}, 1.5, 0.01, 0.02},
       {"flat, far", {kInfinity, 1.0}, 50.0, 0.01, 0.02},
-      {"flat, grazing", {kInfinity, 1.45}, 0.3, 0.01, 0.02},
+      {"flat, grazing", {kInfinity, 1.45}, 0.3, 0.024, 0.031},
       {"convex, radius 0.3", {0.3, 0.4}, 1.0, 0.03, 0.08},
       {"convex, radius 1", {1.0, 0.8}, 3.0, 0.12, 0.3},
       {"convex, radius 5", {5.0, 0.5}, 0.8, 0.12, 0.3},
       {"concave, before the focus", {-3.0, 0.3}, 0.5, 0.12, 0.3},
-      {"concave, beyond the focus", {-1.0, 0.3}, 2.5, 0.12, 0.3},
+      {"concave, beyond the focus", {-1.0, 0.3}, 2.5, 0.3, 0.76},
       {"moving", {0.5, 0.4, 2.0, {0.015, 0.005, 0.0}}, 1.0, 0.12, 0.3},
   };
   const auto method = makeDenoiser("accumulate");
   ReflectionRun run(device(), *method);
   const glm::dvec3 step(0.006, -0.004, 0.003);
-  for (const bool jitter : {false, true}) {
+  for (int i = 0; i < 4; ++i) {
+    const bool jitter = i % 2 == 1;
+    // Below .1, Newton's method begins at the image in a flat mirror.
+    const bool asFlat = i < 2;
+    const double roughness = asFlat ? 0.08 : 0.2;
     for (const OpticsCase& c : cases) {
-      SCOPED_TRACE(std::string(c.name) + (jitter ? ", jitter" : ""));
+      const std::string name = std::string(c.name) + (jitter ? ", jitter" : "") + (asFlat ? "" : ", rough");
+      SCOPED_TRACE(name);
       const Walk cameras = walk(step, jitter);
       run.reset();
-      run.frame(specularFrame(c.mirror.before().scene(), cameras.first, c.distance, 0.1));
-      const HostFrame frame = specularFrame(c.mirror.scene(), cameras.second, c.distance, 0.1);
+      run.frame(specularFrame(c.mirror.before().scene(), cameras.first, c.distance, roughness));
+      const HostFrame frame = specularFrame(c.mirror.scene(), cameras.second, c.distance, roughness);
       run.frame(frame);
       const Image<glm::dvec3> motion = run.view(0);
       std::vector<double> errors;
@@ -252,7 +258,7 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
         const auto exact = exactMotion(c.mirror, frame, step, c.distance, p);
         if (!exact) return;
         // Newton's method begins elsewhere, and that place must lie in the picture, too.
-        const double margin = c.mirror.moved == glm::dvec3(0.0) ? 2.0 : 8.0;
+        const double margin = asFlat && c.mirror.moved == glm::dvec3(0.0) ? 2.0 : 8.0;
         const glm::dvec2 inside = reference::pixelCentre(p) + *exact;
         if (glm::any(glm::lessThan(inside, glm::dvec2(margin)))) return;
         if (glm::any(glm::greaterThan(inside, glm::dvec2(kSize) - margin))) return;
@@ -264,7 +270,7 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
       double sum = 0.0;
       for (const double e : errors) sum += e;
       const auto count = static_cast<double>(errors.size());
-      RecordProperty(std::string(c.name) + (jitter ? ", jitter" : ""), std::to_string(sum / count));
+      RecordProperty(name, std::to_string(sum / count) + " " + std::to_string(errors[errors.size() * 99 / 100]));
       EXPECT_LT(sum / count, c.mean);
       EXPECT_LT(errors[errors.size() * 99 / 100], c.worst);
       EXPECT_GT(surface / count, 5.0 * c.mean);
@@ -275,9 +281,10 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
 // Kept motion has 9 bits, so that it errs by up to 1/64 of a pixel here, and the surface's, from which the image's is
 // counted, by as much. The rest is single precision, which Newton's method multiplies.
 constexpr double kMotionTolerance = 0.04;
-// The miss is taken before motion is rounded, where single precision errs by up to 1/800 of a pixel. That changes it by
-// 1/400 of half a pixel, with which a mirror's miss is compared, and by less of a wider lobe.
-constexpr double kMissTolerance = 1.0 / 400.0;
+// The miss is taken before motion is rounded. The slopes that Newton's method takes of it, 3e-3 a pixel, err by 3e-7 in
+// single precision, and so a step of up to 8 pixels errs by 1/1250 of a pixel. A curved mirror turns its rays up to 4
+// times as fast as a flat one, which turns them by twice the half pixel that a mirror's miss is compared with.
+constexpr double kMissTolerance = 1.0 / 160.0;
 // The two candidates of so many pixels miss alike, within a hundredth, or are tested next to a threshold.
 constexpr double kUndecided = 0.03;
 
@@ -321,7 +328,7 @@ TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
           if (guides[p].depth == 0.0 || comparison.skips(e.undecided)) return;
           comparison.value(p, "x", motion[p].x, e.motion.x, kMotionTolerance);
           comparison.value(p, "y", motion[p].y, e.motion.y, kMotionTolerance);
-          comparison.value(p, "image", motion[p].z, e.image ? 1.0 : 0.0, 0.0);
+          comparison.value(p, "followed", motion[p].z, e.followed ? 1.0 : 0.0, 0.0);
           if (e.history == 0.0) {  // There are no history taps; the pass takes the largest miss, 4.
             const double most = double(ReflectionMotionSettings{}.historyPerLobe) * 2.0 * std::atan(0.4 * 0.4) / 4.0;
             comparison.value(p, "no history", history[p].x, 0.0, most);

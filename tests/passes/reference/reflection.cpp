@@ -1,7 +1,6 @@
 #include "tests/passes/reference/reflection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -23,6 +22,10 @@ constexpr double kFarthest = 3000.0;
 constexpr double kClose = 1e-3;
 /// The same of misses, which hold the rounding of kept motion.
 constexpr double kCloseMiss = 0.01;
+/// Misses of rays that both hit differ by rounding only.
+constexpr double kRoundingOfMiss = 2e-5;
+/// Pixels; either of two such places serves.
+constexpr double kSamePlace = 0.01;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool close(double value, double threshold, double share = kClose) {
@@ -84,8 +87,6 @@ class Search {
   Distances distancesAround(const Mirror& own);
   /// Whether a pixel of the previous frame shows what a mirror shows now.
   bool showsTheSame(glm::ivec2 q, double roughness);
-  glm::dmat2 shape(const Mirror& own, glm::dvec3 within, glm::dvec3 across);
-  glm::dvec2 imageMotion(const Mirror& own, double distance);
   /// The mean of what the previous frame shows at a position; `whole`: all four pixels count.
   /// @param beyond  continues the bilinear mean by so many pixels
   std::optional<Mirror> shownAt(glm::dvec2 position, const Mirror& surface, bool& whole, glm::dvec2 beyond = {});
@@ -128,58 +129,6 @@ bool Search::showsTheSame(glm::ivec2 q, double roughness) {
   const double highest = 1.25 / distances_.nearest + least;
   result_.undecided |= close(inverse, lowest) || close(inverse, highest);
   return inverse >= lowest && inverse <= highest;
-}
-
-/// The shape operator in the basis of two tangents, with lengths in units of depth.
-glm::dmat2 Search::shape(const Mirror& own, glm::dvec3 within, glm::dvec3 across) {
-  const auto tangential = [&](glm::dvec3 v) { return glm::dvec2(glm::dot(v, within), glm::dot(v, across)); };
-  glm::dmat2 positions(0.0);
-  glm::dmat2 normals(0.0);
-  for (int y = -2; y <= 2; y += 2) {
-    for (int x = -2; x <= 2; x += 2) {
-      if (x == 0 && y == 0) continue;
-      const auto found = neighbour(own, {x, y});
-      if (!found) continue;
-      const glm::dvec3 change = found->normal - own.normal;
-      result_.undecided |= close(glm::length(change), 0.5);
-      if (glm::length(change) >= 0.5) continue;
-      const glm::dvec2 s = tangential((found->position - own.position) / -own.position.z);
-      positions += glm::outerProduct(s, s);
-      normals += glm::outerProduct(tangential(change), s);
-    }
-  }
-  const double ridge = 1e-3 * (positions[0][0] + positions[1][1]) + 1e-12;
-  return normals * glm::inverse(positions + glm::dmat2(ridge));
-}
-
-glm::dvec2 Search::imageMotion(const Mirror& own, double distance) {
-  const glm::dvec3 v = glm::normalize(own.position);
-  const glm::dvec3 side = glm::cross(v, own.normal);
-  // The pass takes another direction where there is no plane of incidence.
-  result_.undecided |= glm::length(side) < 1e-3;
-  const glm::dvec3 across = glm::normalize(side);
-  const glm::dmat2 curvature = shape(own, glm::cross(own.normal, across), across);
-  const double cosine = std::max(-glm::dot(v, own.normal), 0.15);
-  const double eye = glm::length(own.position);
-  std::array<double, 2> images{};
-  for (int i = 0; i < 2; ++i) {
-    double c = curvature[i][i];
-    result_.undecided |= close(std::abs(c), 0.05);
-    if (std::abs(c) < 0.05) c = 0.0;
-    const double bent = 2.0 * c * (i == 0 ? 1.0 / cosine : cosine);
-    double inverse = -own.position.z / distance + bent;
-    if (std::abs(inverse) < 1.0 / kFarthest) inverse = 1.0 / kFarthest;
-    images.at(i) = -own.position.z / inverse;
-    const double fromEye = std::abs(1.0 + images.at(i) / eye);
-    result_.undecided |= close(fromEye, 0.15);
-    if (fromEye < 0.15) return glm::dvec2(0.0);
-  }
-  const glm::dvec2 origin = shown(before(own.position));
-  const glm::dvec2 within = shown(before(own.position + v * images[0])) - origin;
-  const glm::dvec2 acrossMotion = shown(before(own.position + v * images[1])) - origin;
-  // The direction in the picture, as a difference over a short way.
-  const glm::dvec2 t = glm::normalize(shown(before(own.position - 1e-6 * own.position.z * across)) - origin);
-  return within - glm::dot(within, t) * t + glm::dot(acrossMotion, t) * t;
 }
 
 std::optional<Mirror> Search::shownAt(glm::dvec2 position, const Mirror& surface, bool& whole, glm::dvec2 beyond) {
@@ -238,37 +187,37 @@ Reflected Search::find() {
     const auto there = shownAt(position, surface, whole);
     return there ? glm::length(miss(*there, object)) : kInfinity;
   };
-  double best = missAt(surfaceAt);
-
-  glm::dvec2 imageAt = surfaceAt + imageMotion(own, distance);
-  double imageMiss = missAt(imageAt);
-  const double lobe = 2.0 * std::atan(own.roughness * own.roughness);
-  const double allowed = std::max(lobe, 0.5 * std::abs(double(frame_.constants.rayFromPixel.y)));
-  if (own.roughness <= 0.3 && whole) {
+  glm::dvec2 place = surfaceAt;
+  double least = missAt(place);
+  bool newton = whole;
+  const auto consider = [&](glm::dvec2 position) {
+    const double found = missAt(position);
+    const bool alike = std::abs(found - least) <= kCloseMiss * least + kRoundingOfMiss;
+    result_.undecided |= alike && (place == surfaceAt || glm::distance(position, place) > kSamePlace);
+    if (found >= least) return;
+    least = found;
+    place = position;
+    newton = whole;
+  };
+  if (own.roughness <= 0.1) {
+    const glm::dvec3 image = own.position + distance * glm::normalize(own.position);
+    consider(surfaceAt + shown(before(image)) - shown(before(own.position)));
+  }
+  if (newton) {
     // Newton's method on the miss, with differences over a pixel.
-    const auto missBeyond = [&](glm::dvec2 beyond) { return miss(*shownAt(imageAt, surface, whole, beyond), object); };
+    const auto missBeyond = [&](glm::dvec2 beyond) { return miss(*shownAt(place, surface, whole, beyond), object); };
     const glm::dvec3 m = missBeyond({});
     const glm::dvec3 x = missBeyond({1.0, 0.0}) - m;
     const glm::dvec3 y = missBeyond({0.0, 1.0}) - m;
     const glm::dmat2 normal(glm::dot(x, x), glm::dot(x, y), glm::dot(x, y), glm::dot(y, y));
-    glm::dvec2 step = -glm::inverse(normal) * glm::dvec2(glm::dot(x, m), glm::dot(y, m));
-    step *= std::min(1.0, 8.0 / glm::length(step));
-    const double stepped = missAt(imageAt + step);
-    result_.undecided |= close(stepped, imageMiss, kCloseMiss);
-    if (stepped < imageMiss) {
-      imageMiss = stepped;
-      imageAt += step;
-    }
+    const glm::dvec2 step = -glm::inverse(normal) * glm::dvec2(glm::dot(x, m), glm::dot(y, m));
+    consider(place + step * std::min(1.0, 8.0 / glm::length(step)));
   }
-  // Rays that both hit differ by rounding only.
-  const double rounding = 2e-5;
-  result_.undecided |= std::abs(imageMiss - best) <= kCloseMiss * best + rounding;
-  if (imageMiss < best) {
-    best = imageMiss;
-    result_.image = true;
-    result_.motion = imageAt - jitter - pixelCentre(p_);
-  }
-  result_.miss = best / allowed;
+  result_.followed = place != surfaceAt;
+  if (result_.followed) result_.motion = place - jitter - pixelCentre(p_);
+  const double lobe = 2.0 * std::atan(own.roughness * own.roughness);
+  const double allowed = std::max(lobe, 0.5 * std::abs(double(frame_.constants.rayFromPixel.y)));
+  result_.miss = least / allowed;
   result_.history = std::min(double(reflection_.historyPerLobe) / result_.miss, double(settings_.maxHistory));
   return result_;
 }

@@ -8,7 +8,7 @@ namespace walr::reference {
 /// The motion of a pixel's reflected light to the previous frame (passes/LEARNT.md, "Reflections").
 struct Reflected {
   glm::dvec2 motion{0.0};  ///< Pixels.
-  bool image = false;      ///< It is that of the mirror image.
+  bool followed = false;   ///< It is not that of the surface.
   double history = 0.0;    ///< Longest history, frames; 0 without any.
   double miss = 0.0;       ///< Of the reflected ray, over the angle that is allowed.
   bool undecided = false;  ///< A decision lay so close to its threshold that rounding may decide.
