@@ -56,7 +56,7 @@ fg::Texture addSpecularWalr(StageGraph graph, const DenoiserInputs& inputs, fg::
                                                         .antialiasing = antialiasing,
                                                         .spatialOnly = settings.spatialOnly,
                                                         .keepTaps = true});
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.normalHistory = false});
+  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.geometricNormal = false});
   const ReflectionMotion motion = addReflectionMotion(graph, inputs, guides, settings.accumulation, {}, true);
   const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, motion);
   const fg::Texture filtered = addLobeFilter(graph,

@@ -13,8 +13,10 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
   const bool fromTexture = settings.motion == MotionSource::Texture;
   const bool byPlane = settings.rejection == HistoryRejection::Plane;
   const bool byDepth = settings.rejection == HistoryRejection::Depth;
-  const bool normalBesideDepth = !guides.geometricNormal.valid() && (byPlane || guides.features.valid());
-  const bool readsNormals = byPlane && !normalBesideDepth;
+  // Taps of specular light are given, and its views leave the normals unread.
+  const bool testsNormals = byPlane && settings.testsNormals && !inputs.conventions.specular;
+  const bool normalBesideDepth = !guides.geometricNormal.valid() && (testsNormals || guides.features.valid());
+  const bool readsNormals = testsNormals && !normalBesideDepth;
   pass.specialize("kJitter", inputs.scene.jitter && (!fromTexture || inputs.conventions.motionJittered))
       .specialize("kMotionFromCamera", !fromTexture)
       .specialize("kMotionDepthGiven", inputs.conventions.motionDepth == InputConventions::MotionDepth::Given)
@@ -27,12 +29,9 @@ void readReprojection(fg::PassBuilder& pass, const DenoiserInputs& inputs, const
       .sampleIf(byPlane || byDepth, "previousDepth", guides.previousDepth, standIns.number);
   if (settings.preparesGuides) return;
   pass.specialize("kDilateMotion", settings.dilateMotion).specialize("kNormalBesideDepth", normalBesideDepth);
-  if (settings.testsNormals) {
-    // Taps of specular light are given, and its views leave the normals unread.
-    const bool kept = guides.previousGeometricNormal.valid() || !inputs.conventions.specular;
-    pass.sampleIf(readsNormals && kept, "previousGeometricNormal", guides.previousGeometricNormal, standIns.number);
-  }
-  pass.sampleIf(readsNormals, "geometricNormal", guides.geometricNormal, standIns.number);
+  if (!settings.testsNormals) return;
+  pass.sampleIf(readsNormals, "geometricNormal", guides.geometricNormal, standIns.number)
+      .sampleIf(readsNormals, "previousGeometricNormal", guides.previousGeometricNormal, standIns.number);
 }
 
 void readConfidence(fg::PassBuilder& pass, fg::Texture confidence, const DenoiserInputs& inputs,

@@ -9,12 +9,13 @@ namespace walr {
 namespace {
 
 /// Guides for the tests of history taps.
-GuideNeeds guidesOf(const TemporalPlan& plan) {
+GuideNeeds guidesOf(const TemporalPlan& plan, bool specular) {
   const auto uses = [&](HistoryRejection rejection) {
     return plan.accumulation.rejection == rejection || (plan.antialiases && plan.antialiasing.rejection == rejection);
   };
   const bool byPlane = uses(HistoryRejection::Plane);
-  return {.geometricNormal = byPlane, .history = byPlane || uses(HistoryRejection::Depth)};
+  // The motion of specular light is tested by its shading normals.
+  return {.geometricNormal = byPlane && !specular, .history = byPlane || uses(HistoryRejection::Depth)};
 }
 
 /// Storage of the anti-aliasing that reads the kept taps.
@@ -52,8 +53,7 @@ TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStag
   if (givenMotion && plan.antialiases) requireGivenTaps(stages.antialiasing);
   plan.sharesTaps = plan.antialiases && (givenMotion || sharesReprojection(plan.antialiasing, plan.accumulation));
   plan.keepsTaps = plan.sharesTaps || stages.keepTaps;
-  plan.guides = guidesOf(plan);
-  plan.guides.normalHistory = !givenMotion;
+  plan.guides = guidesOf(plan, givenMotion);
   return plan;
 }
 

@@ -3,8 +3,7 @@
 // and one step of Newton's method on the miss corrects it. The light of rough surfaces moves with the surface.
 // The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
 // history (confidence.glsl).
-// Needs the geometric normal in a texture of its own. Tests history by the plane of the shading normal, by
-// roughness and, of mirrors, by the distance of what is reflected.
+// Tests history by the plane of the shading normal, by roughness and, of mirrors, by the distance of what is reflected.
 // DISTANCES: the reflector of every pixel holds the mean distance of what is reflected, which else only mirrors have.
 // VIEW: does the same work and writes its intermediate values.
 #version 460
@@ -21,10 +20,10 @@ uniform texture2D lighting;  // a: distance from the surface to what it reflects
 uniform texture2D roughness;
 uniform texture2D motion;
 uniform utexture2D depth;
-uniform utexture2D geometricNormal;
+uniform utexture2D geometricNormal;          // Of `historyTaps`, which is not called.
 uniform utexture2D shadingNormal;
 uniform usampler2D previousDepth;
-uniform usampler2D previousGeometricNormal;  // Of `historyTaps`, which is not called.
+uniform usampler2D previousGeometricNormal;  // Likewise.
 uniform usampler2D previousReflector;
 #ifdef VIEW
 layout(rgba32f) uniform writeonly image2D outView;
@@ -63,14 +62,13 @@ const float kNoHistory = 4.0;             // A miss larger than that of any two 
 // A reflecting surface at a pixel, in the view space of its frame.
 struct Reflector {
   vec3 position;
-  vec3 plane;   // Geometric normal; where history is sought, the shading normal.
   vec3 normal;  // Shading normal.
   float roughness;
 };
 
 // What the pixels of a work group show, and those around it.
 const int kTileSide = int(gl_WorkGroupSize.x) + 2;
-shared vec4 tilePlanes[kTileSide * kTileSide];   // Geometric normal; depth, 0 outside the image.
+shared float tileDepths[kTileSide * kTileSide];  // 0 outside the image.
 shared vec4 tileNormals[kTileSide * kTileSide];  // Shading normal; distance of what is reflected.
 
 void fillTile() {
@@ -78,7 +76,7 @@ void fillTile() {
   for (int i = int(gl_LocalInvocationIndex); i < kTileSide * kTileSide; i += 64) {
     const ivec2 there = first + ivec2(i % kTileSide, i / kTileSide);
     const ivec2 q = clamp(there, ivec2(0), textureSize(depth, 0) - 1);
-    tilePlanes[i] = vec4(unpackLongNormal(packedGeometricNormalAt(q)), q == there ? depthAt(q) : 0.0);
+    tileDepths[i] = q == there ? depthAt(q) : 0.0;
     tileNormals[i] = vec4(unpackLongNormal(texelFetch(shadingNormal, q, 0).x), texelFetch(lighting, q, 0).a);
   }
 }
@@ -91,9 +89,9 @@ int inTile(ivec2 offset) {
 
 // That of this thread's pixel `p`.
 Reflector reflectorAt(ivec2 p) {
-  const vec4 plane = tilePlanes[inTile(ivec2(0))];
-  return Reflector(rayThrough(frame.rayFromPixel, pixelCentre(p)) * plane.w, plane.xyz,
-                   tileNormals[inTile(ivec2(0))].xyz, validRoughness(texelFetch(roughness, p, 0).x));
+  const int i = inTile(ivec2(0));
+  return Reflector(rayThrough(frame.rayFromPixel, pixelCentre(p)) * tileDepths[i], tileNormals[i].xyz,
+                   validRoughness(texelFetch(roughness, p, 0).x));
 }
 
 // Whether two points with these normals lie on one surface. The mean of the normals is perpendicular to the line between
@@ -105,9 +103,9 @@ bool areOnOneSurface(vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
 
 // Whether the pixel `offset` away from `p` shows the surface of `own`, and where.
 bool showsSurface(ivec2 p, ivec2 offset, Reflector own, out vec3 position) {
-  const vec4 plane = tilePlanes[inTile(offset)];
-  position = rayThrough(frame.rayFromPixel, pixelCentre(p + offset)) * plane.w;
-  return plane.w > 0.0 && areOnOneSurface(own.position, own.plane, position, plane.xyz);
+  const int i = inTile(offset);
+  position = rayThrough(frame.rayFromPixel, pixelCentre(p + offset)) * tileDepths[i];
+  return tileDepths[i] > 0.0 && areOnOneSurface(own.position, own.normal, position, tileNormals[i].xyz);
 }
 
 // Depth of a pixel over the distances that the samples of the 3 x 3 pixels on the same surface have.
@@ -185,7 +183,7 @@ Before surfaceBefore(HistoryTaps taps, Sought sought) {
     const float rougher = roughnessOf(reflector) - surface.roughness;
     b.accepted[i] = sought.valid && inside[i] && depths[i] > 0.0 && abs(rougher) <= kRoughnessTolerance &&
                     isSought(distanceOf(reflector), depths[i], sought.inverses) &&
-                    areOnOneSurface(surface.position, surface.plane, positions[i], normals[i]);
+                    areOnOneSurface(surface.position, surface.normal, positions[i], normals[i]);
   }
   taps.accepted = b.accepted;
   const vec4 weights = tapWeights(taps);
@@ -270,10 +268,8 @@ struct ReflectionMotion {
 ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   const Reprojection r = reproject(p, -own.position.z);
   const vec2 surfaceAt = pixelCentre(p) + r.motion + frame.jitterDelta;
-  // Of the previous frame's normals only those for shading are kept. They stand for the plane, too.
-  const vec3 normal = mat3(frame.previousViewFromView) * own.normal;
-  const Reflector surface =
-      Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth, normal, normal, own.roughness);
+  const Reflector surface = Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth,
+                                      mat3(frame.previousViewFromView) * own.normal, own.roughness);
   Sought sought = Sought(surface, r.valid, kAnyInverses);
   ReflectionMotion result =
       ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, 0.0, -1.0));

@@ -7,7 +7,7 @@ namespace walr {
 
 struct ReflectionMotionConstants {
   float planeTolerance;   // Largest distance between two pixels of one surface from each other's plane, over depth.
-  float normalThreshold;  // Smallest cosine between their normals: geometric ones, and shading ones of history.
+  float normalThreshold;  // Smallest cosine between their shading normals.
   float maxHistory;       // Longest history, frames.
   float surfaceFrom;      // Linear roughness from which the light follows the surface alone.
   float historyPerLobe;   // Frames that remain where the reflected ray misses by the half angle of the lobe.

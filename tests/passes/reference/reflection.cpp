@@ -32,10 +32,9 @@ bool close(double value, double threshold, double share = kClose) {
   return std::abs(value - threshold) <= share * std::abs(threshold);
 }
 
-/// A reflecting point, in the view space of its frame.
+/// A reflecting point, in the view space of its frame, with its shading normal.
 struct Mirror {
   glm::dvec3 position{0.0};
-  glm::dvec3 plane{0.0};
   glm::dvec3 normal{0.0};
   double roughness = 0.0;
 };
@@ -68,12 +67,12 @@ class Search {
     return (glm::dvec2(position) / -position.z - glm::dvec2(ray.z, ray.w)) / glm::dvec2(ray);
   }
   [[nodiscard]] Mirror mirrorAt(glm::ivec2 q) const {
-    return {rayThrough(frame_.constants.rayFromPixel, pixelCentre(q)) * guides_[q].depth, guides_[q].normal,
+    return {rayThrough(frame_.constants.rayFromPixel, pixelCentre(q)) * guides_[q].depth,
             octahedralDecode(guides_[q].features), frame_.roughness[q]};
   }
   bool oneSurface(const Mirror& a, const Mirror& b) {
-    const double cosine = glm::dot(a.plane, b.plane);
-    const double distance = std::abs(glm::dot(b.position - a.position, a.plane + b.plane)) / -a.position.z;
+    const double cosine = glm::dot(a.normal, b.normal);
+    const double distance = std::abs(glm::dot(b.position - a.position, a.normal + b.normal)) / -a.position.z;
     const double most = 2.0 * double(settings_.thresholds.planeTolerance);
     result_.undecided |= close(cosine, settings_.thresholds.normalThreshold) || close(distance, most);
     return cosine >= double(settings_.thresholds.normalThreshold) && distance <= most;
@@ -145,7 +144,7 @@ std::optional<Mirror> Search::shownAt(glm::dvec2 position, const Mirror& surface
     if (!previous_.guides.contains(q) || previous_.guides[q].depth == 0.0) continue;
     const Guide& guide = previous_.guides[q];
     const glm::dvec3 normal = octahedralDecode(guide.features);
-    const Mirror tap{rayThrough(frame_.constants.previousRayFromPixel, pixelCentre(q)) * guide.depth, normal, normal,
+    const Mirror tap{rayThrough(frame_.constants.previousRayFromPixel, pixelCentre(q)) * guide.depth, normal,
                      previous_.roughness[q]};
     if (!oneSurface(surface, tap) || std::abs(tap.roughness - surface.roughness) > 0.1) continue;
     if (!showsTheSame(q, surface.roughness)) continue;
@@ -177,8 +176,7 @@ Reflected Search::find() {
 
   const glm::dvec2 jitter(frame_.constants.jitterDelta);
   const glm::dvec2 surfaceAt = r.pixel + jitter;
-  // History is tested by shading normals.
-  const Mirror surface{r.position, turned(own.normal), turned(own.normal), own.roughness};
+  const Mirror surface{r.position, turned(own.normal), own.roughness};
   distances_ = distancesAround(own);
   const double distance = std::min(distances_.nearest, kFarthest * -own.position.z);
   const glm::dvec3 object = before(own.position + distance * glm::reflect(glm::normalize(own.position), own.normal));
