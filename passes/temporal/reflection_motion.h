@@ -34,9 +34,9 @@ struct ReflectionMotion {
   fg::Texture reflectors;  ///< R32G32_UINT: what tells of the light that a pixel reflects (reflector.glsl).
 };
 
-/// Find the motion of specular light (passes/SPECULAR.md): to the place where the surface of the previous frame reflected
-/// what is reflected now, or on rough surfaces to that of the surface.
-/// @param guides   with the geometric normal apart and with the history of depth
+/// Find the motion of specular light (passes/SPECULAR.md): to the place where the surface of the previous frame
+/// reflected what is reflected now, or on rough surfaces to that of the surface.
+/// @param guides   with the shading normal and with the history of depth
 /// @param settings of the accumulation that takes the result
 /// @param distances whether reflectors of all pixels have mean distances, else only those of mirrors
 /// @throws std::invalid_argument if these settings do not test history by plane, or if objects move and the depth of

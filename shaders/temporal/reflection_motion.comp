@@ -94,8 +94,8 @@ Reflector reflectorAt(ivec2 p) {
                    validRoughness(texelFetch(roughness, p, 0).x));
 }
 
-// Whether two points with these normals lie on one surface. The mean of the normals is perpendicular to the line between
-// any two points of a sphere or a plane.
+// Whether two points with these normals lie on one surface. The mean of the normals is perpendicular to the line
+// between any two points of a sphere or a plane.
 bool areOnOneSurface(vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
   const bool facing = dot(normalA, normalB) >= constants.normalThreshold;
   return facing && abs(dot(b - a, normalA + normalB)) <= -2.0 * constants.planeTolerance * a.z;

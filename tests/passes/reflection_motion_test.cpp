@@ -281,9 +281,9 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
 // Kept motion has 9 bits, so that it errs by up to 1/64 of a pixel here, and the surface's, from which the image's is
 // counted, by as much. The rest is single precision, which Newton's method multiplies.
 constexpr double kMotionTolerance = 0.04;
-// The miss is taken before motion is rounded. The slopes that Newton's method takes of it err by 3e-7 radians a pixel in
-// single precision, and so a step of up to 8 pixels misses by 2.4e-6 more: 1/160 of half a pixel, with which a mirror's
-// miss is compared, and less of a wider lobe.
+// The miss is taken before motion is rounded. The slopes that Newton's method takes of it err by 3e-7 radians a pixel
+// in single precision, and so a step of up to 8 pixels misses by 2.4e-6 more: 1/160 of half a pixel, with which a
+// mirror's miss is compared, and less of a wider lobe.
 constexpr double kMissTolerance = 1.0 / 160.0;
 // The two candidates of so many pixels miss alike, within a hundredth, or are tested next to a threshold.
 constexpr double kUndecided = 0.03;
