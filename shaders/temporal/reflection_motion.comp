@@ -205,7 +205,7 @@ Before surfaceBefore(HistoryTaps taps, Sought sought) {
 
 // Positions in the previous image are in pixels of this frame's size, and include its jitter.
 
-// Of a point that is still, given in the view space of this frame.
+// The place of a point that is still, given in the view space of this frame.
 vec2 pixelBefore(vec3 point) {
   return nearPixelOf(frame.previousRayFromPixel, previousPosition(frame.previousViewFromView, point));
 }

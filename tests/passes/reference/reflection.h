@@ -5,7 +5,7 @@
 
 namespace walr::reference {
 
-/// The motion of a pixel's reflected light to the previous frame (passes/LEARNT.md, "Reflections").
+/// The motion of a pixel's reflected light to the previous frame (passes/SPECULAR.md).
 struct Reflected {
   glm::dvec2 motion{0.0};  ///< Pixels.
   bool followed = false;   ///< It is not that of the surface.
