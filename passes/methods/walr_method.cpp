@@ -56,13 +56,11 @@ fg::Texture addSpecularWalr(StageGraph graph, const DenoiserInputs& inputs, fg::
                                                         .antialiasing = antialiasing,
                                                         .spatialOnly = settings.spatialOnly,
                                                         .keepTaps = true});
-  const Guides guides = addPrepareGuides(graph, inputs, settings.guides, {.geometricNormal = false});
-  const ReflectionMotion motion = addReflectionMotion(graph, inputs, guides, settings.accumulation, {}, true);
-  const Accumulated accumulated = addAccumulation(graph, inputs, guides, plan, motion);
+  const auto [guides, reflectors, accumulated] = addReflectionsWithAccumulation(graph, inputs, settings.guides, plan);
   const fg::Texture filtered = addLobeFilter(graph,
                                              {.frame = inputs.frame,
                                               .depth = guides.depth,
-                                              .reflectors = motion.reflectors,
+                                              .reflectors = reflectors,
                                               .accumulated = accumulated.lighting,
                                               .lighting = inputs.lighting,
                                               .antilag = accumulated.antilag,

@@ -9,6 +9,7 @@
 
 #include "passes/guides/guide_pass.h"
 #include "passes/guides/shared_guides.h"
+#include "passes/temporal/reflection_pass.h"
 #include "passes/temporal/reprojection.h"
 #include "shaders/shaders.h"
 #include "shaders/temporal/guides_and_accumulation.h"
@@ -19,11 +20,21 @@ namespace walr {
 namespace {
 
 /// The variants of the pass.
-enum class Role : std::uint8_t { Mean, MeanAndTaps, GuidesMeanAndTaps, GuidesMeanAndTapsOnGrid, View };
+enum class Role : std::uint8_t {
+  Mean,
+  MeanAndTaps,
+  GuidesMeanAndTaps,
+  GuidesMeanAndTapsOnGrid,
+  ReflectionsMeanAndTaps,
+  View,
+  ReflectionsView,
+};
 
 const fg::Shader& shaderFor(Role role, bool antilag, LightStorage storage) {
   const bool packed = storage == LightStorage::Packed;
   if (role == Role::View) return shaders::temporalAccumulationView({.packed = packed});
+  if (role == Role::ReflectionsView) return shaders::temporalAccumulationReflectionsView;
+  if (role == Role::ReflectionsMeanAndTaps) return shaders::temporalAccumulationReflections;
   if (role == Role::GuidesMeanAndTaps) return shaders::temporalAccumulationGuides;
   if (role == Role::GuidesMeanAndTapsOnGrid) return shaders::temporalAccumulationGuidesGrid;
   return shaders::temporalAccumulation({.taps = role == Role::MeanAndTaps, .antilag = antilag, .packed = packed});
@@ -31,6 +42,10 @@ const fg::Shader& shaderFor(Role role, bool antilag, LightStorage storage) {
 
 bool preparesGuides(Role role) {
   return role == Role::GuidesMeanAndTaps || role == Role::GuidesMeanAndTapsOnGrid;
+}
+
+bool isView(Role role) {
+  return role == Role::View || role == Role::ReflectionsView;
 }
 
 /// The stage with what it works on.
@@ -45,6 +60,7 @@ struct Stage {
   fg::History accumulated;
   std::optional<Antilag> antilag;  ///< Where the stage has it.
   fg::Texture givenTaps = {};      ///< Taps that another pass has kept; not valid if the stage finds them itself.
+  std::optional<ReflectionSearch> reflections = {};  ///< If the stage finds the motion of reflections.
 };
 
 Stage stageOf(StageGraph graph, fg::Extent extent, const DenoiserInputs& inputs, const Guides& guides,
@@ -81,8 +97,9 @@ fg::Extent wholeGroups(const Stage& stage) {
 void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   const TemporalAccumulationSettings& settings = stage.settings;
   const bool antilag = stage.antilag.has_value();
-  ReprojectionSettings reprojection =
-      reprojectionOf(stage.inputs.scene, !stage.keepTaps, settings.rejection, settings.dilateMotion);
+  ReprojectionSettings reprojection = stage.reflections ? reflectionReprojection(stage.inputs, settings)
+                                                        : reprojectionOf(stage.inputs.scene, !stage.keepTaps,
+                                                                         settings.rejection, settings.dilateMotion);
   reprojection.preparesGuides = preparesGuides(role);
   pass.uniform("frameConstants", stage.inputs.frame)
       .specialize("kBicubicHistory", settings.historyFilter == HistoryFilter::Bicubic);
@@ -95,15 +112,15 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
   }
   readReprojection(pass, stage.inputs, stage.guides, reprojection, standIns);
   readConfidence(pass, stage.inputs.confidence, stage.inputs, standIns);
-  if (!stage.keepTaps || role == Role::View) pass.specialize("kStill", reprojection.motion == MotionSource::None);
-  if (role == Role::View) {
+  if (!stage.keepTaps || isView(role)) pass.specialize("kStill", reprojection.motion == MotionSource::None);
+  if (isView(role)) {
     pass.specialize("kKeepableMotion", stage.keepTaps)
         .specialize("kAntilag", antilag)
         .specialize("kLightGrid", stage.onGrid);
   }
   if (antilag) {
     pass.sample("previousAntilag", stage.antilag->factor.previous);
-  } else if (role == Role::View) {
+  } else if (isView(role)) {
     pass.unread("previousAntilag", stage.inputs.lighting);
   }
   specializeLight(pass, stage.inputs.conventions.light);
@@ -115,14 +132,19 @@ void readInputs(const Stage& stage, fg::PassBuilder& pass, Role role) {
 /// A pass without its outputs; the first of them is the current texture of `accumulated`.
 fg::PassBuilder declarePass(const Stage& stage, const std::string& name, Role role) {
   fg::PassBuilder pass = newPass(stage, name, role);
-  pass.sample("depth", stage.guides.depth).constants(constantsOf(stage.settings));
+  if (stage.reflections) {
+    readReflections(pass, *stage.reflections);
+  } else {
+    pass.sample("depth", stage.guides.depth).constants(constantsOf(stage.settings));
+  }
   readInputs(stage, pass, role);
   return pass;
 }
 
 void offerViews(const Stage& stage) {
-  stage.graph.offer(accumulationViews(stage.antilag.has_value()), stage.extent,
-                    [&](const std::string& name) { return declarePass(stage, name, Role::View); });
+  stage.graph.offer(accumulationViews(stage.antilag.has_value()), stage.extent, [&](const std::string& name) {
+    return declarePass(stage, name, stage.reflections ? Role::ReflectionsView : Role::View);
+  });
 }
 
 /// Add a pass's output, and antilag if the stage has it.
@@ -142,7 +164,7 @@ AccumulationWithTaps storeMeanAndTaps(const Stage& stage, fg::PassBuilder& pass,
   result.light = storeMean(stage, pass);
   pass.specialize("kKeepPassThrough", antialiasing == LightStorage::Packed);
   result.taps = pass.store("outTaps", stage.graph->texture("history taps", {VK_FORMAT_R32_UINT, stage.extent}));
-  if (stage.graph.shared() != nullptr && !stage.givenTaps.valid()) {
+  if (stage.graph.shared() != nullptr && !stage.givenTaps.valid() && !stage.reflections) {
     stage.graph.shared()->keepTaps(tapTests(stage.settings), result.taps);
   }
   return result;
@@ -233,6 +255,29 @@ GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserI
   return {.guides = stage.guides,
           .accumulated = accumulated,
           .lightGrid = onGrid ? std::optional(storeLightGrid(stage, pass)) : std::nullopt};
+}
+
+ReflectionsAndAccumulation addReflectionsAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,
+                                                         const PrepareGuidesSettings& guideSettings,
+                                                         const TemporalAccumulationSettings& settings,
+                                                         LightStorage antialiasing) {
+  if (!canJoinGuides(settings)) {
+    throw std::invalid_argument(
+        "reflections and accumulation share a pass only with antilag, packed storage and no dilated motion; add three "
+        "passes");
+  }
+  offerGuideViews(graph, inputs, guideSettings);
+  const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
+  const fg::History depth = graph->history("guides.depth", {VK_FORMAT_R32_UINT, extent});
+  Guides guides;
+  guides.previousDepth = depth.previous;
+  Stage stage = stageOf(graph, extent, inputs, guides, settings, true, {});
+  stage.reflections.emplace(searchReflections(graph, inputs, guides, settings, {}, guideSettings));
+  offerViews(stage);
+  fg::PassBuilder pass = declarePass(stage, "reflections and accumulation", Role::ReflectionsMeanAndTaps);
+  guides.depth = pass.store("outDepth", depth.current);
+  const fg::Texture reflectors = pass.store("outReflector", stage.reflections->reflectors.current);
+  return {.guides = guides, .reflectors = reflectors, .accumulated = storeMeanAndTaps(stage, pass, antialiasing)};
 }
 
 }  // namespace walr

@@ -113,8 +113,9 @@ struct GuidesAndAccumulation {
   std::optional<LightGrid> lightGrid;  ///< If `accumulated.light.mean` lies on it.
 };
 
-/// Whether `addGuidesAndAccumulation` can stand in for two passes. Its shader has antilag and
-/// packed storage, tests history taps by plane, and follows no dilated motion; it has no variants without these.
+/// Whether `addGuidesAndAccumulation` can stand in for two passes, or `addReflectionsAndAccumulation` for three. Their
+/// shaders have antilag and packed storage, test history taps by plane, and follow no dilated motion; they have no
+/// variants without these.
 bool canJoinGuides(const TemporalAccumulationSettings& settings);
 
 /// `addPrepareGuides` and `addTemporalAccumulationWithTaps` as one pass, which need not read the guides back.
@@ -125,5 +126,20 @@ GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserI
                                                const PrepareGuidesSettings& guideSettings, const GuideNeeds& needs,
                                                const TemporalAccumulationSettings& settings, LightStorage antialiasing,
                                                fg::Texture leastAntilag = {});
+
+/// Specular light accumulated along its own motion, with what later stages read of its surfaces.
+struct ReflectionsAndAccumulation {
+  Guides guides;           ///< Depth and its history.
+  fg::Texture reflectors;  ///< `ReflectionMotion::reflectors` with mean distances.
+  AccumulationWithTaps accumulated;
+};
+
+/// `addPrepareGuides`, `addReflectionMotion` with its default settings and `addTemporalAccumulationWithTaps` as one
+/// pass, which writes neither normals nor the motion by itself.
+/// @throws std::invalid_argument unless `canJoinGuides`, or as `addReflectionMotion`
+ReflectionsAndAccumulation addReflectionsAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,
+                                                         const PrepareGuidesSettings& guideSettings,
+                                                         const TemporalAccumulationSettings& settings,
+                                                         LightStorage antialiasing);
 
 }  // namespace walr

@@ -91,6 +91,18 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
   return {guides, addAccumulation(graph, inputs, guides, plan)};
 }
 
+ReflectedInput addReflectionsWithAccumulation(StageGraph graph, const DenoiserInputs& inputs,
+                                              const PrepareGuidesSettings& settings, const TemporalPlan& plan) {
+  if (graph.shared() == nullptr && canJoinGuides(plan.accumulation)) {
+    const auto [guides, reflectors, accumulated] =
+        addReflectionsAndAccumulation(graph, inputs, settings, plan.accumulation, tapsReader(plan));
+    return {guides, reflectors, withTaps(accumulated)};
+  }
+  const Guides guides = addPrepareGuides(graph, inputs, settings, {.geometricNormal = false});
+  const ReflectionMotion motion = addReflectionMotion(graph, inputs, guides, plan.accumulation, {}, true);
+  return {guides, motion.reflectors, addAccumulation(graph, inputs, guides, plan, motion)};
+}
+
 fg::Texture filterTarget(StageGraph graph, const TemporalPlan& plan, fg::Texture output) {
   if (!plan.antialiases) return output;
   return graph.texture("filtered", {formatOf(plan.filtered), graph.textureDesc(output).extent});

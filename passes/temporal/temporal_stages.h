@@ -72,6 +72,19 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
                                       const PrepareGuidesSettings& settings, const GuideNeeds& needs,
                                       const TemporalPlan& plan);
 
+/// The input of a filter of specular light, and what it reads of its surfaces.
+struct ReflectedInput {
+  Guides guides;           ///< Depth and its history.
+  fg::Texture reflectors;  ///< `ReflectionMotion::reflectors` with mean distances.
+  Accumulated accumulated;
+};
+
+/// Add the motion of reflections and temporal accumulation along it: as one pass where `canJoinGuides` says so and no
+/// other light shares the guides. The plan must accumulate.
+/// @throws std::invalid_argument as `addReflectionMotion`
+ReflectedInput addReflectionsWithAccumulation(StageGraph graph, const DenoiserInputs& inputs,
+                                              const PrepareGuidesSettings& settings, const TemporalPlan& plan);
+
 /// The texture for a filter to write to: the method's output if no stage follows, else a new one in the storage
 /// `plan.filtered`.
 fg::Texture filterTarget(StageGraph graph, const TemporalPlan& plan, fg::Texture output);

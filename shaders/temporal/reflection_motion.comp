@@ -1,10 +1,5 @@
-// Where the light that a surface reflects was in the previous frame (passes/SPECULAR.md): where the previous frame's
-// surface reflected the point that is reflected now. A place is judged by how much the reflected ray misses that point,
-// and one step of Newton's method on the miss corrects it. The light of rough surfaces moves with the surface.
-// The place is written as kept taps (history_taps.glsl), which accumulation takes, and the miss as a confidence in the
-// history (confidence.glsl).
-// Tests history by the plane of the shading normal, by roughness and, of mirrors, by the distance of what is reflected.
-// DISTANCES: the reflector of every pixel holds the mean distance of what is reflected, which else only mirrors have.
+// Finds the motion of reflections (reflection_motion.glsl). The place is written as kept taps (history_taps.glsl), which
+// accumulation takes, and the miss as a confidence in the history (confidence.glsl).
 // VIEW: does the same work and writes its intermediate values.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -16,7 +11,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
-uniform texture2D lighting;  // a: distance from the surface to what it reflects; 0: there is no sample.
+uniform texture2D lighting;
 uniform texture2D roughness;
 uniform texture2D motion;
 uniform utexture2D depth;
@@ -32,13 +27,14 @@ layout(r32ui) uniform writeonly uimage2D outTaps;
 layout(r8) uniform writeonly image2D outConfidence;
 layout(rg32ui) uniform writeonly uimage2D outReflector;
 #endif
-#ifdef DISTANCES
-const bool kDistances = true;
-#else
-const bool kDistances = false;
-#endif
 layout(push_constant) uniform PushConstants {
+#ifdef HOST_SURFACES
+  HostReflectionConstants pushed;
+#define constants pushed.motion
+#define guideConstants pushed.guides
+#else
   ReflectionMotionConstants constants;
+#endif
 #ifdef VIEW
   uint view;  // Which quantity; numbered in viewOf.
 #endif
@@ -46,292 +42,7 @@ layout(push_constant) uniform PushConstants {
 
 #define KEEP_TAPS
 #define HISTORY previousReflector
-#include "conventions/lobe.glsl"
-#include "temporal/confidence.glsl"
-#include "conventions/reflector.glsl"
-#include "temporal/reprojection.glsl"
-
-const float kLongestNewtonStep = 8.0;     // Pixels.
-const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
-const float kFarthestObject = 3000.0;     // Over depth; what is farther is reflected from here.
-const float kMirrorUpTo = 0.05;           // Roughness up to which history must have the distance of what is reflected.
-const float kDistanceTolerance = 1.25;    // Largest ratio of two distances of one thing.
-const float kLeastNearness = 1e-3;        // Depth over distance; what is farther is at one distance.
-const float kNoHistory = 4.0;             // A miss larger than that of any two directions.
-
-// A reflecting surface at a pixel, in the view space of its frame.
-struct Reflector {
-  vec3 position;
-  vec3 normal;  // Shading normal.
-  float roughness;
-};
-
-// What the pixels of a work group show, and those around it.
-const int kTileSide = int(gl_WorkGroupSize.x) + 2;
-shared float tileDepths[kTileSide * kTileSide];  // 0 outside the image.
-shared vec4 tileNormals[kTileSide * kTileSide];  // Shading normal; distance of what is reflected.
-
-void fillTile() {
-  const ivec2 first = ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy) - 1;
-  for (int i = int(gl_LocalInvocationIndex); i < kTileSide * kTileSide; i += 64) {
-    const ivec2 there = first + ivec2(i % kTileSide, i / kTileSide);
-    const ivec2 q = clamp(there, ivec2(0), textureSize(depth, 0) - 1);
-    tileDepths[i] = q == there ? depthAt(q) : 0.0;
-    tileNormals[i] = vec4(unpackLongNormal(texelFetch(shadingNormal, q, 0).x), texelFetch(lighting, q, 0).a);
-  }
-}
-
-// The place in the tile of the pixel that is `offset` away from this thread's.
-int inTile(ivec2 offset) {
-  const ivec2 q = ivec2(gl_LocalInvocationID.xy) + 1 + offset;
-  return q.y * kTileSide + q.x;
-}
-
-// That of this thread's pixel `p`.
-Reflector reflectorAt(ivec2 p) {
-  const int i = inTile(ivec2(0));
-  return Reflector(rayThrough(frame.rayFromPixel, pixelCentre(p)) * tileDepths[i], tileNormals[i].xyz,
-                   validRoughness(texelFetch(roughness, p, 0).x));
-}
-
-// Whether two points with these normals lie on one surface. The mean of the normals is perpendicular to the line
-// between any two points of a sphere or a plane.
-bool areOnOneSurface(vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
-  const bool facing = dot(normalA, normalB) >= constants.normalThreshold;
-  return facing && abs(dot(b - a, normalA + normalB)) <= -2.0 * constants.planeTolerance * a.z;
-}
-
-// Whether the pixel `offset` away from `p` shows the surface of `own`, and where.
-bool showsSurface(ivec2 p, ivec2 offset, Reflector own, out vec3 position) {
-  const int i = inTile(offset);
-  position = rayThrough(frame.rayFromPixel, pixelCentre(p + offset)) * tileDepths[i];
-  return tileDepths[i] > 0.0 && areOnOneSurface(own.position, own.normal, position, tileNormals[i].xyz);
-}
-
-// Depth of a pixel over the distances that the samples of the 3 x 3 pixels on the same surface have.
-struct ReflectedSamples {
-  float nearest;   // The largest. 0 without samples: what is reflected counts as far away.
-  float farthest;  // The smallest, if there are samples.
-  float nearness;  // The mean; below 0 without samples.
-};
-
-ReflectedSamples samplesAround(ivec2 p, Reflector own) {
-  float nearest = 0.0, farthest = kLargestHalf, sum = 0.0, count = 0.0;
-  vec3 position;
-  for (int i = 0; i < 9; ++i) {
-    const ivec2 offset = ivec2(i % 3, i / 3) - 1;
-    if (!showsSurface(p, offset, own, position)) continue;
-    const float distance = tileNormals[inTile(offset)].w;
-    if (!(distance > 0.0)) continue;
-    const float nearness = nearnessOf(distance, -own.position.z);
-    nearest = max(nearest, nearness);
-    farthest = min(farthest, nearness);
-    sum += nearness;
-    count += 1.0;
-  }
-  return ReflectedSamples(nearest, farthest, count > 0.0 ? sum / count : -1.0);
-}
-
-// What a pixel of the previous frame must show to be history.
-struct Sought {
-  Reflector surface;  // Where it was.
-  bool valid;         // That is known.
-  vec2 inverses;      // Smallest and largest one over the distance of what it reflects.
-};
-
-const vec2 kAnyInverses = vec2(-1.0, 1e30);
-
-// The light of a mirror is that of what it shows: where another thing came into view, or went, there is no history.
-vec2 soughtInverses(Reflector own, ReflectedSamples samples) {
-  if (own.roughness > kMirrorUpTo || samples.nearness < 0.0) return kAnyInverses;
-  return vec2(samples.farthest / kDistanceTolerance - kLeastNearness,
-              samples.nearest * kDistanceTolerance + kLeastNearness) /
-         -own.position.z;
-}
-
-// Of a pixel of the previous frame at the depth z.
-bool isSought(ReflectedDistance distance, float z, vec2 inverses) {
-  const float inverse = distance.inverse / z;
-  return distance.frames == 0.0 || (inverse >= inverses.x && inverse <= inverses.y);
-}
-
-// What the previous frame shows at a position: the mean of those of its pixels there that show what is sought.
-struct Before {
-  vec3 position;
-  vec3 normal;  // Not normalised.
-  // Their changes from one pixel of the previous frame to the next, if `whole`.
-  vec3 positionSlopes[2];
-  vec3 normalSlopes[2];
-  bvec4 accepted;
-  bool found;
-  bool whole;  // All four pixels show what is sought.
-};
-
-Before surfaceBefore(HistoryTaps taps, Sought sought) {
-  const Reflector surface = sought.surface;
-  const bvec4 inside = tapsInside(taps, textureSize(previousReflector, 0));
-  const vec2 corner = sharedCorner(taps, frame.previousTexel);
-  const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
-  const uvec4 words[2] = {gatherTaps(previousReflector, corner), textureGather(previousReflector, corner, 1).wzxy};
-  vec3 positions[4], normals[4];
-  Before b;
-  [[unroll]] for (int i = 0; i < 4; ++i) {
-    const vec2 q = vec2(historyTap(taps, i)) + 0.5;
-    const uvec2 reflector = uvec2(words[0][i], words[1][i]);
-    positions[i] = rayThrough(frame.previousRayFromPixel, q * frame.pixelFromPreviousPixel) * depths[i];
-    normals[i] = unpackLongNormal(reflector.x);
-    const float rougher = roughnessOf(reflector) - surface.roughness;
-    b.accepted[i] = sought.valid && inside[i] && depths[i] > 0.0 && abs(rougher) <= kRoughnessTolerance &&
-                    isSought(distanceOf(reflector), depths[i], sought.inverses) &&
-                    areOnOneSurface(surface.position, surface.normal, positions[i], normals[i]);
-  }
-  taps.accepted = b.accepted;
-  const vec4 weights = tapWeights(taps);
-  const float sum = dot(weights, vec4(1.0)), scale = 1.0 / max(sum, kLeastTapWeight);
-  b.position = b.normal = vec3(0.0);
-  [[unroll]] for (int i = 0; i < 4; ++i) {
-    b.position += scale * weights[i] * positions[i];
-    b.normal += scale * weights[i] * normals[i];
-  }
-  b.found = sum > kLeastTapWeight;
-  b.whole = all(b.accepted);
-  const vec2 f = taps.fraction;
-  b.positionSlopes[0] = mix(positions[1] - positions[0], positions[3] - positions[2], f.y);
-  b.positionSlopes[1] = mix(positions[2] - positions[0], positions[3] - positions[1], f.x);
-  b.normalSlopes[0] = mix(normals[1] - normals[0], normals[3] - normals[2], f.y);
-  b.normalSlopes[1] = mix(normals[2] - normals[0], normals[3] - normals[1], f.x);
-  return b;
-}
-
-// Positions in the previous image are in pixels of this frame's size, and include its jitter.
-
-// The place of a point that is still, given in the view space of this frame.
-vec2 pixelBefore(vec3 point) {
-  return nearPixelOf(frame.previousRayFromPixel, previousPosition(frame.previousViewFromView, point));
-}
-
-HistoryTaps tapsAt(vec2 position) {
-  const vec2 before = position * frame.previousPixelFromPixel - 0.5, base = floor(before);
-  return HistoryTaps(ivec2(base), before - base, bvec4(false));
-}
-
-// The difference between the direction that a surface reflects to the eye and that of a point, which is the angle by
-// which the reflected ray misses the point where that is small.
-vec3 missOf(vec3 object, vec3 position, vec3 normal) {
-  const vec3 n = normal * inversesqrt(max(dot(normal, normal), 1e-20)), way = object - position;
-  const vec3 seen = position * inversesqrt(max(dot(position, position), 1e-20));
-  return reflect(seen, n) - way * inversesqrt(max(dot(way, way), 1e-20));
-}
-
-// A place in the previous image where the light may have been.
-struct Candidate {
-  vec2 position;
-  Before before;
-  vec3 missed;  // missOf.
-  float miss;   // Its length; kNoHistory: there is none.
-};
-
-Candidate candidateAt(vec2 position, Sought sought, vec3 object) {
-  const Before b = surfaceBefore(tapsAt(position), sought);
-  const vec3 missed = missOf(object, b.position, b.normal);
-  return Candidate(position, b, missed, b.found ? length(missed) : kNoHistory);
-}
-
-Candidate nearer(Candidate a, Candidate b) {
-  if (b.miss < a.miss) return b;
-  return a;
-}
-
-// One step of Newton's method on the miss, in pixels.
-vec2 newtonStep(Candidate c, vec3 object) {
-  const Before b = c.before;
-  const vec3 x = missOf(object, b.position + b.positionSlopes[0], b.normal + b.normalSlopes[0]) - c.missed;
-  const vec3 y = missOf(object, b.position + b.positionSlopes[1], b.normal + b.normalSlopes[1]) - c.missed;
-  // Least squares: the three components have two degrees of freedom.
-  const float xx = dot(x, x), yy = dot(y, y), xy = dot(x, y), determinant = xx * yy - xy * xy;
-  if (!(determinant > 1e-6 * xx * yy)) return vec2(0.0);
-  const vec2 right = -vec2(dot(x, c.missed), dot(y, c.missed));
-  const vec2 step = vec2(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
-  return step * min(1.0, kLongestNewtonStep * inversesqrt(max(dot(step, step), 1e-20))) * frame.pixelFromPreviousPixel;
-}
-
-// The place of a pixel's reflected light in the previous frame.
-struct ReflectionMotion {
-  vec2 motion;    // As kept taps hold it.
-  bvec4 taps;     // Which are accepted.
-  float history;  // Longest, frames.
-  float miss;     // Over the half angle that it is compared with.
-  bool followed;  // It is another place than the surface's.
-  ReflectedSamples samples;  // Only with DISTANCES, or below constants.surfaceFrom.
-};
-
-ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
-  const Reprojection r = reproject(p, -own.position.z);
-  const vec2 surfaceAt = pixelCentre(p) + r.motion + frame.jitterDelta;
-  const Reflector surface = Reflector(rayThrough(frame.previousRayFromPixel, surfaceAt) * r.depth,
-                                      mat3(frame.previousViewFromView) * own.normal, own.roughness);
-  Sought sought = Sought(surface, r.valid, kAnyInverses);
-  ReflectionMotion result =
-      ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, 0.0, -1.0));
-  if (kDistances || own.roughness < constants.surfaceFrom) result.samples = samplesAround(p, own);
-  if (own.roughness < constants.surfaceFrom) {
-    sought.inverses = soughtInverses(own, result.samples);
-    const float distance = -own.position.z / max(result.samples.nearest, 1.0 / kFarthestObject);
-    const vec3 seen = normalize(own.position);
-    const vec3 object = own.position + distance * reflect(seen, own.normal);
-    const vec3 objectBefore = previousPosition(frame.previousViewFromView, object);
-    Candidate best = candidateAt(surfaceAt, sought, objectBefore);
-    if (own.roughness <= kSharpUpTo) {
-      // Objects that move carry their images along.
-      const vec2 offset = pixelBefore(own.position + distance * seen) - pixelBefore(own.position);
-      best = nearer(best, candidateAt(surfaceAt + offset, sought, objectBefore));
-    }
-    if (best.before.whole)
-      best = nearer(best, candidateAt(best.position + newtonStep(best, objectBefore), sought, objectBefore));
-    result.followed = best.position != surfaceAt;
-    if (result.followed) result.motion = keepableMotion(best.position - frame.jitterDelta - pixelCentre(p));
-    // No picture tells angles below half a pixel apart.
-    const float allowed = max(lobeAngle(own.roughness), 0.5 * abs(frame.rayFromPixel.y));
-    result.miss = best.miss / allowed;
-    result.history = min(constants.historyPerLobe / max(result.miss, 1e-6), constants.maxHistory);
-  }
-  result.history = confidentLength(p, result.history, constants.maxHistory);
-  result.taps = surfaceBefore(tapsAround(p, result.motion, frame.previousPixelFromPixel), sought).accepted;
-  return result;
-}
-
-// Depth of a pixel over the distance of what it reflects, by this frame's samples; below 0 without any. A rough surface
-// reflects many things, and the pixel's own sample shows one of them by chance.
-float nearnessAt(Reflector own, ReflectionMotion m) {
-  const float distance = tileNormals[inTile(ivec2(0))].w;
-  const float sharp = distance > 0.0 ? nearnessOf(distance, -own.position.z) : -1.0;
-  return own.roughness <= kSharpUpTo ? sharp : m.samples.nearness;
-}
-
-// The mean over time of what samples tell of the distance of what a pixel reflects.
-ReflectedDistance meanDistance(ivec2 p, Reflector own, ReflectionMotion m) {
-  HistoryTaps taps = tapsAround(p, m.motion, frame.previousPixelFromPixel);
-  taps.accepted = m.taps;
-  const vec4 weights = tapWeights(taps);
-  const uvec4 texels = textureGather(previousReflector, sharedCorner(taps, frame.previousTexel), 1).wzxy;
-  ReflectedDistance mean = ReflectedDistance(0.0, 0.0);
-  float known = 0.0;
-  [[unroll]] for (int i = 0; i < 4; ++i) {
-    const ReflectedDistance tap = distanceOf(uvec2(0u, texels[i]));
-    const float weight = tap.frames > 0.0 ? weights[i] : 0.0;
-    mean.inverse += weight * tap.inverse;
-    mean.frames += weight * tap.frames;
-    known += weight;
-  }
-  const float scale = known > kLeastTapWeight ? 1.0 / known : 0.0;
-  mean.inverse *= scale;
-  mean.frames = min(scale * mean.frames, m.history);
-  const float inverse = nearnessAt(own, m);
-  if (inverse < 0.0) return mean;
-  mean.frames = min(mean.frames + 1.0, constants.maxHistory);
-  mean.inverse += (inverse - mean.inverse) / mean.frames;
-  return mean;
-}
+#include "temporal/reflection_motion.glsl"
 
 #ifdef VIEW
 vec3 viewOf(ivec2 p, Reflector own) {
@@ -348,7 +59,7 @@ void main() {
   fillTile();
   barrier();
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
+  if (any(greaterThanEqual(p, pictureSize()))) return;
   const Reflector own = reflectorAt(p);
   const float z = -own.position.z;
 #ifdef VIEW
@@ -363,8 +74,6 @@ void main() {
   const ReflectionMotion m = reflectionMotionAt(p, own);
   imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
   imageStore(outConfidence, p, vec4(m.history / constants.maxHistory));
-  ReflectedDistance distance = ReflectedDistance(0.0, 0.0);
-  if (kDistances || own.roughness <= kMirrorUpTo) distance = meanDistance(p, own, m);
-  imageStore(outReflector, p, uvec4(packReflector(texelFetch(shadingNormal, p, 0).x, own.roughness, distance), 0u, 0u));
+  imageStore(outReflector, p, uvec4(packedReflectorOf(p, own, m), 0u, 0u));
 #endif
 }

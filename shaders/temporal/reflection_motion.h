@@ -1,5 +1,6 @@
 #ifndef WALR_SHADERS_TEMPORAL_REFLECTION_MOTION_H
 #define WALR_SHADERS_TEMPORAL_REFLECTION_MOTION_H
+#include "../guides/prepare_guides.h"
 #include "../common/types.h"
 #ifdef __cplusplus
 namespace walr {
@@ -13,8 +14,15 @@ struct ReflectionMotionConstants {
   float historyPerLobe;   // Frames that remain where the reflected ray misses by the half angle of the lobe.
 };
 
+// Of passes that also read the host's G-buffer.
+struct HostReflectionConstants {
+  PrepareGuidesConstants guides;
+  ReflectionMotionConstants motion;
+};
+
 #ifdef __cplusplus
 static_assert(sizeof(ReflectionMotionConstants) == 20);
+static_assert(sizeof(HostReflectionConstants) == 100);
 }  // namespace walr
 #endif
 #endif

@@ -4,6 +4,8 @@
 // OBJECTS: also tests object ids; needs `objects` and `previousObjects`, a usampler2D.
 // GUIDES: `ownGuides` (guides.glsl) are the guides of this thread's pixel, in place of `depth` and `geometricNormal`;
 // without kDilateMotion.
+// HOST_SURFACES: the includer defines `depthAt`, for this thread's pixel and the eight around it, and `pictureSize`;
+// `depth` is not read.
 // LIGHT_GRID_TAPS: also tests the history taps of accumulated light on the light grid (light_sample.glsl).
 // KEEP_TAPS: motion is rounded to what kept taps can hold (history_taps.glsl); with VIEW, kKeepableMotion says whether
 // it is.
@@ -53,10 +55,18 @@ uvec4 gatherNormals(uvec4 packedDepths, vec2 corner) {
   return kNormalBesideDepth ? packedDepths : gatherTaps(previousGeometricNormal, corner);
 }
 #endif
+#ifdef HOST_SURFACES
+ivec2 pictureSize();
+float depthAt(ivec2 p);
+#else
 float depthAt(ivec2 p) {
   const uint packed = packedDepthAt(p);
   return kNormalBesideDepth ? unpackDepthBesideNormal(packed) : unpackDepth(packed);
 }
+#ifndef GUIDES
+ivec2 pictureSize() { return textureSize(depth, 0); }
+#endif
+#endif
 
 struct Reprojection {
   vec2 motion;  // To the previous frame, pixels of this one.
@@ -77,7 +87,7 @@ layout(constant_id = 1) const bool kDilateMotion = false;  // Follow the nearest
 ivec2 nearestPixel(ivec2 p, float z) {
   ivec2 nearest = p;
   for (int i = 0; i < 9; ++i) {
-    const ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), textureSize(depth, 0) - 1);
+    const ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), pictureSize() - 1);
     const float candidate = depthAt(q);
     if (candidate > 0.0 && candidate < z) {
       z = candidate;

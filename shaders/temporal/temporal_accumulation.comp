@@ -10,6 +10,8 @@
 // VIEW: does the same work and writes one of its intermediate values instead of the result; kAntilag says whether
 // antilag is on.
 // GUIDES: prepares the pixel's guides first (guides.glsl), which saves a pass and reading them back.
+// REFLECTIONS: finds the motion of reflections first, from the host's G-buffer (reflection_motion.glsl), and follows it,
+// which saves two passes and what they hand on. Also keeps depth and reflectors.
 // kTapsGiven: takes motion and accepted taps that another pass has kept: another light's accumulation, or the motion of
 // reflections (reflection_motion.comp).
 // LIGHT_GRID: the mean has a texel for each group of sparse light, and so has a copy of the guides of the pixels that
@@ -23,6 +25,10 @@
 #include "conventions/frame.h"
 #ifdef GUIDES
 #include "temporal/guides_and_accumulation.h"
+#elif defined(REFLECTIONS)
+#define HOST_SURFACES
+#define DISTANCES
+#include "temporal/reflection_motion.h"
 #else
 #include "temporal/temporal_accumulation.h"
 #endif
@@ -37,6 +43,14 @@ uniform usampler2D previousDepth;
 uniform utexture2D depth;
 uniform utexture2D geometricNormal;
 uniform usampler2D previousGeometricNormal;
+#endif
+#ifdef REFLECTIONS
+uniform texture2D roughness;
+uniform usampler2D previousReflector;
+#ifndef VIEW
+layout(r32ui) uniform writeonly uimage2D outDepth;
+layout(rg32ui) uniform writeonly uimage2D outReflector;
+#endif
 #endif
 // rgb: mean; a: history length.
 #ifdef PACKED
@@ -61,7 +75,7 @@ layout(rgba16f) uniform writeonly image2D outAccumulated;
 layout(constant_id = 3) const bool kKeepPassThrough = false;  // At pixels without a surface; else kNoSurfaceTaps.
 layout(r32ui) uniform writeonly uimage2D outTaps;
 #endif
-#if (defined(KEEP_TAPS) || defined(VIEW)) && !defined(GUIDES)
+#if (defined(KEEP_TAPS) || defined(VIEW)) && !defined(GUIDES) && !defined(REFLECTIONS)
 #define GIVEN_TAPS
 layout(constant_id = 6) const bool kTapsGiven = false;
 uniform utexture2D givenTaps;
@@ -86,7 +100,13 @@ layout(push_constant) uniform PushConstants { GuidesAndAccumulationConstants pus
 #include "guides/guides.glsl"
 #else
 layout(push_constant) uniform PushConstants {
+#ifdef REFLECTIONS
+  HostReflectionConstants pushed;
+#define constants pushed.motion
+#define guideConstants pushed.guides
+#else
   TemporalAccumulationConstants constants;
+#endif
 #ifdef VIEW
   uint view;  // Which quantity; numbered in viewOf.
 #endif
@@ -120,6 +140,9 @@ float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #define HISTORY previousAccumulated
 #include "temporal/bicubic.glsl"
 #include "temporal/reprojection.glsl"
+#ifdef REFLECTIONS
+#include "temporal/reflection_motion.glsl"
+#endif
 
 // The history of a pixel.
 struct ReprojectedHistory {
@@ -146,7 +169,28 @@ HistoryTaps takeGivenTaps(ivec2 p) {
 }
 #endif
 
+#ifdef REFLECTIONS
+// The history of reflected light, no longer than a texture of eight bits would hold it as a confidence.
+ReprojectedHistory historyOfReflection(ivec2 p) {
+  const Reflector own = reflectorAt(p);
+  const ReflectionMotion m = reflectionMotionAt(p, own);
+#ifndef VIEW
+  imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
+  imageStore(outReflector, p, uvec4(packedReflectorOf(p, own, m), 0u, 0u));
+#endif
+  HistoryTaps taps = tapsAround(p, m.motion, frame.previousPixelFromPixel);
+  taps.accepted = m.taps;
+  ReprojectedHistory found = historyAt(taps, tapPosition(taps));
+  const float confidence = round(255.0 * m.history / constants.maxHistory) * (1.0 / 255.0);
+  found.mean.a = min(found.mean.a, constants.maxHistory * confidence);
+  return found;
+}
+#endif
+
 ReprojectedHistory readHistory(ivec2 p, float z) {
+#ifdef REFLECTIONS
+  return historyOfReflection(p);
+#else
   if (kStill) return ReprojectedHistory(historyTexel(previousAccumulated, p), vec2(p), 0, 1.0);
 #ifdef GIVEN_TAPS
   if (kTapsGiven) {
@@ -167,6 +211,7 @@ ReprojectedHistory readHistory(ivec2 p, float z) {
   if (kLightGrid) taps = lightGridTaps(p, r, position, constants.planeTolerance, constants.normalThreshold);
 #endif
   return historyAt(taps, position);
+#endif
 }
 
 #if defined(ANTILAG) || defined(VIEW)
@@ -253,8 +298,12 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy, float share) {
 }
 
 void main() {
+#ifdef REFLECTIONS
+  fillTile();
+  barrier();
+#endif
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  const bool inside = all(lessThan(p, textureSize(depth, 0)));
+  const bool inside = all(lessThan(p, pictureSize()));
   const LightSample noisy = inside ? lightSampleAt(lighting, p) : kNoLightSample;
   const float z = inside ? depthAt(p) : 0.0;
   const float share = fireflyShareOfTile(brightnessOf(noisy, z));
@@ -285,9 +334,15 @@ const PixelSums kNoSums = PixelSums(0.0, 0.0, 0.0);
 // Accumulates one pixel. `share`: fireflyShareOfTile.
 PixelSums accumulate(ivec2 p, float z, LightSample noisy, float share) {
   const bool sampleIsUsable = isUsable(noisy);
+#ifdef REFLECTIONS
+  imageStore(outDepth, p, uvec4(packDepthSdf(z, 0u)));
+#endif
   if (z == 0.0) {
     const vec3 passed = passThroughLight(noisy.radiance);
     storeNoSurface(p, passed);
+#ifdef REFLECTIONS
+    imageStore(outReflector, p, uvec4(0u));
+#endif
 #ifdef KEEP_TAPS
     imageStore(outTaps, p, uvec4(kKeepPassThrough ? packPassThrough(passed) : kNoSurfaceTaps));
 #endif
@@ -337,7 +392,11 @@ void main() {
   storeLightGuides(p, inside);
 #endif
 #else
-  const bool inside = all(lessThan(p, textureSize(depth, 0)));
+#ifdef REFLECTIONS
+  fillTile();
+  barrier();
+#endif
+  const bool inside = all(lessThan(p, pictureSize()));
 #endif
 #ifdef ANTILAG
   const LightSample noisy = inside ? lightSampleAt(lighting, p) : kNoLightSample;

@@ -15,6 +15,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "passes/guides/shared_guides.h"
 #include "passes/methods/denoiser.h"
 #include "passes/temporal/reflection_motion.h"
 #include "tests/error_text.h"
@@ -124,17 +125,21 @@ HostFrame specularFrame(const Scene& scene, const FrameDescription& camera, doub
 /// A method, or the stage alone on given guides, on a device frame by frame, with the stage's views.
 class ReflectionRun {
  public:
-  ReflectionRun(const fg::test::TestDevice& device, Denoiser& method)
+  /// @param alone  whether no other light could share the guides, so that passes may be joined
+  /// @param history whether there is a third view, that of the history of accumulated light
+  ReflectionRun(const fg::test::TestDevice& device, Denoiser& method, bool alone = true, bool history = false)
       : inputs_(importInputs(graph_, kSize, {.specular = true})), output_(importOutput(graph_, kSize)) {
-    wantViews();
-    graph_.exported(method.add({graph_, inspection_}, inputs_, output_), fg::vk::kReadable);
+    wantViews(history);
+    SharedGuides shared;
+    const SharedLight light{.guides = alone ? nullptr : &shared};
+    graph_.exported(method.add({graph_, inspection_, light}, inputs_, output_), fg::vk::kReadable);
     start(device);
   }
   /// Of the stage. The output is the confidence.
   ReflectionRun(const fg::test::TestDevice& device, const SceneDescription& scene)
       : inputs_(importInputs(graph_, kSize, {.specular = true})), guides_(importGuides(graph_, kSize)) {
     inputs_.scene = scene;
-    wantViews();
+    wantViews(false);
     output_ =
         copyOut(graph_, "confidence", addReflectionMotion({graph_, inspection_}, inputs_, guides_, {}).confidence);
     start(device);
@@ -159,9 +164,11 @@ class ReflectionRun {
   [[nodiscard]] Image<glm::dvec4> output() const { return readHalves(*run_, output_, kSize); }
 
  private:
-  void wantViews() {
+  void wantViews(bool history) {
     const fg::Extent extent{static_cast<std::uint32_t>(kSize.x), static_cast<std::uint32_t>(kSize.y)};
-    for (const char* const view : {"reflection-motion", "reflection-history"})
+    std::vector<const char*> views{"reflection-motion", "reflection-history"};
+    if (history) views.push_back("history");
+    for (const char* const view : views)
       inspection_.want(view,
                        graph_.import(std::string("view of ") + view, {kViewFormat, extent}, fg::vk::kOverwritable));
   }
@@ -420,6 +427,64 @@ TEST_F(ReflectionMotionTest, MirrorsKeepNoLightOfWhatLeft) {
         EXPECT_GT(std::abs(output[p].r - now), 1.0) << p.x << " " << p.y;
       }
     });
+  }
+}
+
+// Where a light is alone, one pass reads the G-buffer, finds the motion and accumulates.
+TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
+  const auto method = makeDenoiser("walr");
+  ReflectionRun joined(device(), *method, true, true);
+  ReflectionRun apart(device(), *method, false, true);
+  const Scene worlds[]{sphere(), bumpyWall(0.1), Mirror{0.5, 0.7}.scene()};
+  for (const Scene& world : worlds) {
+    const bool zoom = &world == &worlds[2];
+    SCOPED_TRACE(&world - worlds);
+    joined.reset();
+    apart.reset();
+    const glm::dvec3 step = zoom ? glm::dvec3(0.005, -0.004, 0.003) : glm::dvec3(0.09, 0.04, -0.03);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const FrameDescription at = jittered(cameraAt(double(i) * step, (i - 1.0) * step, kSize, i), i);
+      HostFrame frame = specularFrame(world, zoom ? zoomed(at) : at, 1.5, 0.2);
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        const bool sampled = (p.x + p.y + int(i)) % 5 != 0;
+        frame.lightAlpha[p] = sampled ? 1.0 + 0.5 * (p.x % 2) : 0.0;
+        frame.roughness[p] = double(p.x / 8 % 4) * 0.2;
+        frame.lighting[p] *= 0.5 + double((7 * p.x + 3 * p.y + 5 * int(i)) % 11) / 11.0;
+      });
+      joined.frame(frame);
+      apart.frame(frame);
+    }
+    // Drivers may contract the same arithmetic in other ways: some hundred roundings by 2^-24 each.
+    constexpr double kArithmetic = 0x1p-16;
+    for (std::size_t view = 0; view < 3; ++view) {
+      const Image<glm::dvec3> one = joined.view(view);
+      const Image<glm::dvec3> three = apart.view(view);
+      Comparison comparison("view " + std::to_string(view));
+      std::size_t seen = 0;
+      std::size_t shortened = 0;
+      reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+        comparison.compared();
+        comparison.colour(p, one[p], three[p], kArithmetic * glm::abs(three[p]));
+        seen += one[p].x != 0.0 ? 1 : 0;
+        shortened += one[p].z != 0.0 && one[p].x < 3.0 ? 1 : 0;
+      });
+      if (view == 1) {
+        EXPECT_GT(shortened, 100U);
+      }
+      comparison.expect(0.0);
+      EXPECT_GT(seen, 500U);
+    }
+    // They may also tip the rounding of packed light, whose unit is 2^-7 of the brightest channel.
+    const Image<glm::dvec4> one = joined.output();
+    const Image<glm::dvec4> three = apart.output();
+    Comparison comparison("output");
+    reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+      comparison.compared();
+      const glm::dvec3 expected(three[p]);
+      comparison.colour(p, glm::dvec3(one[p]), expected,
+                        glm::dvec3(0x1p-7 * std::max({expected.r, expected.g, expected.b})));
+    });
+    comparison.expect(0.0);
   }
 }
 
