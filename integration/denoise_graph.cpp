@@ -47,7 +47,6 @@ struct LightKinds {
 /// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
   const bool flatMotion = conventions.motionDepth != InputConventions::MotionDepth::Given;
-  if (input.texture == &DenoiserInputs::lighting && conventions.light.hasAlpha()) return 4;
   const bool twoChannels = (input.texture == &DenoiserInputs::motion && flatMotion) ||
                            (input.texture == &DenoiserInputs::normal && host.octahedral());
   return twoChannels ? 2 : input.channels;
@@ -66,7 +65,11 @@ DenoiserInputs importAll(fg::Graph& graph, fg::Extent extent, const InputConvent
     const VkFormat format = formats.empty() ? usual : formats[i];
     if (input.optional && format == VK_FORMAT_UNDEFINED) continue;
     const bool isLight = input.texture == &DenoiserInputs::lighting;
-    requireInputFormat(input, format, channelsRead(input, conventions, host), isLight && kinds.specular);
+    if (isLight) {
+      requireLightFormat(input, format, conventions.light, kinds.specular);
+    } else {
+      requireInputFormat(input, format, channelsRead(input, conventions, host));
+    }
     const fg::Extent size = isLight ? conventions.light.lightingExtent(extent) : extent;
     inputs.*input.texture = graph.import(std::string(input.name), {.format = format, .extent = size}, state);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "framegraph/declare/format.h"
 
@@ -30,6 +31,14 @@ std::uint32_t integerChannels(const fg::FormatInfo& format) {
   if (!format.name.substr(channels.size()).starts_with("_UINT")) return 0;
   return static_cast<std::uint32_t>(std::ranges::count_if(
       channels, [](char c) { return std::string_view("RGBA").find(c) != std::string_view::npos; }));
+}
+
+[[noreturn]] void refuseFormat(const HostInput& input, VkFormat format, std::string_view what, std::uint32_t channels) {
+  throw std::invalid_argument("input '" + std::string(input.name) + "' cannot be of format " +
+                              std::string(fg::formatInfo(format).name) + " (" + std::to_string(format) +
+                              "): it takes a format that is " + std::string(what) + " with " +
+                              std::to_string(channels) + (channels == 1 ? " channel" : " channels") +
+                              " or more, such as " + std::string(fg::formatInfo(input.format).name));
 }
 
 }  // namespace
@@ -61,20 +70,21 @@ const HostInput* hostInputNamed(std::string_view name) {
   return found == kHostInputs.end() ? nullptr : &*found;
 }
 
-void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels, bool distances) {
+void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels) {
   const fg::FormatInfo& info = fg::formatInfo(format);
-  const fg::FormatInfo& usual = fg::formatInfo(input.format);
-  const bool integers = integerChannels(usual) > 0;
-  if (distances) channels = 4;
-  const bool holds = !distances || info.name.find("_SFLOAT") != std::string_view::npos;
-  if (holds && (integers ? integerChannels(info) : sampledChannels(info)) >= channels) return;
-  throw std::invalid_argument("input '" + std::string(input.name) + "' cannot be of format " + std::string(info.name) +
-                              " (" + std::to_string(format) + "): it takes a format that is " +
-                              (integers    ? "sampled as unsigned integers"
-                               : distances ? "stored as SFLOAT, because alpha is a distance,"
-                                           : "sampled as floats") +
-                              " with " + std::to_string(channels) + (channels == 1 ? " channel" : " channels") +
-                              " or more, such as " + std::string(usual.name));
+  const bool integers = integerChannels(fg::formatInfo(input.format)) > 0;
+  if ((integers ? integerChannels(info) : sampledChannels(info)) >= channels) return;
+  refuseFormat(input, format, integers ? "sampled as unsigned integers" : "sampled as floats", channels);
+}
+
+void requireLightFormat(const HostInput& input, VkFormat format, const LightPattern& pattern, bool specular) {
+  requireInputFormat(input, format, specular || pattern.hasAlpha() ? 4 : input.channels);
+  const bool floats = fg::formatInfo(format).name.find("_SFLOAT") != std::string_view::npos;
+  if (floats || !(specular || pattern.counted)) return;
+  refuseFormat(input, format,
+               specular ? "stored as SFLOAT, because alpha is a distance,"
+                        : "stored as SFLOAT, because alpha is a number of samples,",
+               4);
 }
 
 }  // namespace walr

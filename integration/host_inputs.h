@@ -41,11 +41,13 @@ inline constexpr VkFormat kOutputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 /// Check that a host's texture can be used as an input.
 /// @param channels how many are read, if not `input.channels`
-/// @param distances whether alpha is the distance of specular light, which takes four channels of floats
 /// @throws std::invalid_argument naming the input, its format and what is accepted
-void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels, bool distances = false);
+void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t channels);
 inline void requireInputFormat(const HostInput& input, VkFormat format) {
   requireInputFormat(input, format, input.channels);
 }
+/// The same for the lighting. Its alpha is read where it masks light. Where it is a distance (specular light) or a number
+/// of samples, it may be above 1, and the format must be one of floats.
+void requireLightFormat(const HostInput& input, VkFormat format, const LightPattern& pattern, bool specular);
 
 }  // namespace walr

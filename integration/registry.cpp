@@ -128,8 +128,8 @@ class StageNode final : public PassNode {
     const VkFormat format = graph.textureDesc(connected->second).format;
     const HostInput* input = hostInputNamed(port.name);
     if (!port.output && input != nullptr) {
-      const bool distances = conventions_.specular && input->texture == &DenoiserInputs::lighting;
-      return requireInputFormat(*input, format, input->channels, distances);
+      if (input->texture != &DenoiserInputs::lighting) return requireInputFormat(*input, format);
+      return requireLightFormat(*input, format, conventions_.light, conventions_.specular);
     }
     if (format == port.format) return;
     throw std::invalid_argument("port '" + port.name + "' of pass '" + name_ + "' takes " + formatName(port.format) +

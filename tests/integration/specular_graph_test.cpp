@@ -1,6 +1,7 @@
 // Graphs of specular light, alone and beside diffuse light. No device is needed.
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -115,6 +116,38 @@ TEST(SpecularGraph, HasPortsInTheRegistry) {
     fg::test::expectError<std::invalid_argument>(
         [&] { (void)node->add(graph); }, {specular ? "stored as SFLOAT" : "nothing is connected to port 'depth'"});
   }
+}
+
+// What alpha means decides which formats hold it: in a graph of its own, as in the registry.
+TEST(SpecularGraph, TakesLightInFormatsThatHoldItsAlpha) {
+  constexpr std::string_view kAccepted = "nothing is connected to port 'depth'";
+  const auto expect = [&](const LightPattern& light, VkFormat format, std::string_view why) {
+    SCOPED_TRACE(why);
+    fg::Graph graph;
+    const auto node = makePass("accumulate");
+    node->setConventions({.light = light});
+    node->connect(std::string(kLightingName),
+                  graph.import("light", {.format = format, .extent = kExtent}, kComputeHost.inputs));
+    fg::test::expectError<std::invalid_argument>([&] { (void)node->add(graph); }, {why});
+
+    fg::Graph own;
+    std::array<VkFormat, kHostInputs.size()> formats{};
+    for (std::size_t i = 0; i < formats.size(); ++i)
+      formats.at(i) = kHostInputs.at(i).optional ? VK_FORMAT_UNDEFINED : kHostInputs.at(i).format;
+    formats.front() = format;
+    const auto import = [&] { (void)importInputs(own, kExtent, {.light = light}, kComputeHost.inputs, formats); };
+    if (why == kAccepted) {
+      EXPECT_NO_THROW(import());
+    } else {
+      fg::test::expectError<std::invalid_argument>(import, {why});
+    }
+  };
+  constexpr VkFormat kThreeChannels = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+  expect({}, kThreeChannels, kAccepted);
+  expect({.masked = true}, kThreeChannels, "sampled as floats with 4 channels");
+  expect({.masked = true}, VK_FORMAT_R16G16B16A16_UNORM, kAccepted);
+  expect({.counted = true}, VK_FORMAT_R16G16B16A16_UNORM, "because alpha is a number of samples");
+  expect({.counted = true}, VK_FORMAT_R32G32B32A32_SFLOAT, kAccepted);
 }
 
 }  // namespace

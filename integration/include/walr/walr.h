@@ -295,7 +295,7 @@ typedef struct WalrDenoiserInfo {
   const WalrConventions* conventions; /* Null means all zero. */
   /* Formats of the host's images; VK_FORMAT_UNDEFINED means the usual one, see WalrPort::format. Any other must be
    * sampled as floats and have at least as many channels as are read. */
-  VkFormat lighting_format; /* If a light is specular, SFLOAT with four channels: its alpha is a distance. */
+  VkFormat lighting_format; /* SFLOAT with four channels if alpha is a distance (specular light) or a count. */
   VkFormat depth_format;
   VkFormat normal_format;
   VkFormat motion_format;
