@@ -35,11 +35,14 @@ class FilmTracer::Images {
     if (scene.specular()) {
       textures_.specular = declare("specular light", color);
       textures_.specularAlbedo = declare("specular albedo", color);
+      textures_.specularMotion = declare("specular motion", color);
     }
     addTrace(graph_, scene, Precision::Float, inputs_, textures_);
     std::vector<fg::Texture> traced = {textures_.direct,   textures_.indirect, textures_.normal, textures_.albedo,
                                        textures_.emission, textures_.motion,   textures_.depth,  textures_.objectId};
-    if (scene.specular()) traced.insert(traced.end(), {textures_.specular, textures_.specularAlbedo});
+    if (scene.specular()) {
+      traced.insert(traced.end(), {textures_.specular, textures_.specularAlbedo, textures_.specularMotion});
+    }
     for (const fg::Texture texture : traced) graph_.exported(texture, fg::vk::kReadable);
     readback_.emplace(gpu, graph_, 1);
     direct_ = readback_->readBack(textures_.direct);
@@ -53,6 +56,7 @@ class FilmTracer::Images {
     if (!scene.specular()) return;
     specular_ = readback_->readBack(textures_.specular);
     specularAlbedo_ = readback_->readBack(textures_.specularAlbedo);
+    specularMotion_ = readback_->readBack(textures_.specularMotion);
   }
 
   [[nodiscard]] fg::Extent extent() const { return extent_; }
@@ -71,6 +75,9 @@ class FilmTracer::Images {
   [[nodiscard]] std::vector<glm::vec4> specular() const { return readback_->read<glm::vec4>(specular_, slot_); }
   [[nodiscard]] std::vector<glm::vec4> specularAlbedo() const {
     return readback_->read<glm::vec4>(specularAlbedo_, slot_);
+  }
+  [[nodiscard]] std::vector<glm::vec4> specularMotion() const {
+    return readback_->read<glm::vec4>(specularMotion_, slot_);
   }
 
   void readSpecular(std::vector<render::SpecularPixel>& pixels) const {
@@ -121,6 +128,7 @@ class FilmTracer::Images {
   ReadbackGraph::Index objectId_ = 0;
   ReadbackGraph::Index specular_ = 0;
   ReadbackGraph::Index specularAlbedo_ = 0;
+  ReadbackGraph::Index specularMotion_ = 0;
   std::uint32_t slot_ = 0;
 };
 
@@ -129,6 +137,7 @@ struct FilmTracer::Sum {
   std::vector<glm::dvec3> indirect;
   std::vector<double> paths;
   std::vector<glm::dvec4> specular = {};  // w: inverse distances. Empty without specular light.
+  std::vector<glm::dvec3> specularMotion = {};
   std::vector<double> specularPaths = {};
   std::uint64_t rays = 0;
 
@@ -146,6 +155,7 @@ struct FilmTracer::Sum {
     }
     for (std::size_t i = 0; i < specular.size(); ++i) {
       specular[i] += other.specular[i];
+      specularMotion[i] += other.specularMotion[i];
       specularPaths[i] += other.specularPaths[i];
     }
     rays += other.rays;
@@ -175,6 +185,7 @@ FilmTracer::Sum FilmTracer::trace(const render::View& view, render::SamplingSett
   Sum sum{std::vector<glm::dvec3>(pixels), std::vector<glm::dvec3>(pixels), std::vector<double>(pixels)};
   if (scene_.specular()) {
     sum.specular.resize(pixels);
+    sum.specularMotion.resize(pixels);
     sum.specularPaths.resize(pixels);
   }
   TraceData data{sceneState(world_), scene_.placements(world_), {}};
@@ -202,9 +213,11 @@ FilmTracer::Sum FilmTracer::trace(const render::View& view, render::SamplingSett
     if (scene_.specular()) {
       const std::vector<glm::vec4> specular = images_->specular();
       const std::vector<glm::vec4> albedo = images_->specularAlbedo();
+      const std::vector<glm::vec4> motion = images_->specularMotion();
       for (std::size_t i = 0; i < pixels; ++i) {
         const double paths = albedo[i].w;
         sum.specular[i] += glm::dvec4(specular[i]) * paths;
+        sum.specularMotion[i] += glm::dvec3(motion[i]) * paths;
         sum.specularPaths[i] += paths;
       }
     }
@@ -232,6 +245,7 @@ render::Film FilmTracer::film(const render::View& view, const render::SamplingSe
     const glm::dvec4 mean = sum.meanSpecular(i);
     film.specular[i].light = mean;
     film.specular[i].distance = sum.specularPaths[i] > 0.0 ? render::distanceOf(mean.w) : 0.0F;
+    film.specular[i].motion = sum.specularMotion[i] / std::max(sum.specularPaths[i], 1.0);
   }
   film.rays = sum.rays;
   return film;

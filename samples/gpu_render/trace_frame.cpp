@@ -51,7 +51,8 @@ SceneState sceneState(const render::World& world) {
     const render::Instance& instance = world.instances()[i];
     state.instances.push_back({instance.worldFromObject, instance.previousWorldFromObject,
                                glm::mat4(instance.normalFromObject), instance.mesh, firstEmitters[i].value_or(kAbsent),
-                               (instance.moves ? kMoves : 0) | (instance.mirrored ? kMirrored : 0), 0});
+                               (render::isDisplaced(instance) ? kDisplaced : 0) | (instance.mirrored ? kMirrored : 0),
+                               0});
   }
   for (const render::PlacedLight& light : world.lights().punctual()) {
     state.punctualLights.push_back({glm::vec4(light.position, kindOf(light.light.kind)),

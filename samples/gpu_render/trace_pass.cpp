@@ -42,7 +42,7 @@ void addTrace(fg::Graph& graph, const GpuScene& scene, Precision precision, cons
     const char* binding;
     fg::Texture TracedTextures::*texture;
   };
-  static constexpr std::array<Output, 10> kAll{{{"outDirect", &TracedTextures::direct},
+  static constexpr std::array<Output, 11> kAll{{{"outDirect", &TracedTextures::direct},
                                                 {"outIndirect", &TracedTextures::indirect},
                                                 {"outNormal", &TracedTextures::normal},
                                                 {"outAlbedo", &TracedTextures::albedo},
@@ -51,8 +51,10 @@ void addTrace(fg::Graph& graph, const GpuScene& scene, Precision precision, cons
                                                 {"outDepth", &TracedTextures::depth},
                                                 {"outObjectId", &TracedTextures::objectId},
                                                 {"outSpecular", &TracedTextures::specular},
-                                                {"outSpecularAlbedo", &TracedTextures::specularAlbedo}}};
-  const std::span<const Output> outputs = std::span(kAll).first(scene.specular() ? 10 : 8);
+                                                {"outSpecularAlbedo", &TracedTextures::specularAlbedo},
+                                                {"outSpecularMotion", &TracedTextures::specularMotion}}};
+  const std::size_t ofSpecular = precision == Precision::Float ? 3 : 2;
+  const std::span<const Output> outputs = std::span(kAll).first(8 + (scene.specular() ? ofSpecular : 0));
   const fg::Extent extent = graph.textureDesc(textures.depth).extent;
   fg::PassBuilder pass = graph.callback(
       kTracePass, [&scene, precision, inputs, textures, extent, outputs](const fg::RecordContext& context) {

@@ -54,15 +54,18 @@ class PixelTracer {
     if (!sampled) return pixel;
     glm::dvec3 light(0.0);
     double inverseDistance = 0.0;
+    glm::dvec3 motion(0.0);
     for (std::uint32_t s = 0; s < settings_.samples; ++s) {
       Sampler sampler(settings_.sampler, settings_.seed ^ exact::kSpecularSeed, pixel_, settings_.firstSample + s);
       const PathSample path = tracePath(world_, surface, bounces_, sampler, Lobe::Specular);
       light += path.direct + path.indirect;
       inverseDistance += 1.0 / path.distance;
+      motion += path.motion;
       rays += path.rays;
     }
     pixel.light = glm::vec3(light / static_cast<double>(settings_.samples)) / pixel.albedo;
     pixel.distance = distanceOf(inverseDistance / settings_.samples);
+    pixel.motion = glm::vec3(motion / static_cast<double>(settings_.samples));
     return pixel;
   }
 
@@ -127,6 +130,7 @@ Film renderFilm(const World& world, const View& view, const SamplingSettings& se
             if (!film.specular.empty()) {
               film.specular[index] = tracer.specular(*hit.surface, sampled, tileRays);
               film.specular[index].albedo *= hit.tint;
+              film.specular[index].motion = hit.imageFromWorld * film.specular[index].motion;
             }
             if (hit.pixel.albedo == glm::vec3(0.0F)) {
               continue;

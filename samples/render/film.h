@@ -42,6 +42,8 @@ struct SpecularPixel {
   glm::vec3 light{0.0F};  ///< Mean of all light of `Lobe::Specular`, divided by `albedo`.
   /// Harmonic mean of `PathSample::distance`, because parallax goes with its inverse; 0 without a sample.
   float distance = 0.0F;
+  /// Mean of `PathSample::motion`, as `PrimaryHit::imageFromWorld` turns it; 0 without a sample.
+  glm::vec3 motion{0.0F};
   /// See `specularAlbedo`; times `PrimaryHit::tint`. 0 on sky, like `roughness`.
   glm::vec3 albedo{0.0F};
   float roughness = 0.0F;

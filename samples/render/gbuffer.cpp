@@ -66,6 +66,7 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
     result.pixel.motion = glm::vec3(imageMotion(view, x, y, previous), position.z - previous.z);
     result.pixel.objectId = hit->instance;
     result.surface = surface;
+    result.imageFromWorld = glm::mat3(imageFromWorld);
     return result;
   }
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "samples/render/surface.h"
@@ -37,6 +38,7 @@ struct PrimaryHit {
   GBufferPixel pixel;
   std::optional<Surface> surface;  ///< Nothing on sky.
   glm::vec3 tint{1.0F};            ///< Product of the reflection weights of the mirrors in between.
+  glm::mat3 imageFromWorld{1.0F};  ///< From directions to those of the virtual image behind these mirrors.
 };
 
 /// Trace the ray through a pixel's sample position. For motion seen in mirrors, the mirrors are assumed not to move.

@@ -21,6 +21,11 @@ struct Instance {
   bool mirrored = false;             ///< The transform reverses the winding of triangles.
 };
 
+/// Whether an instance is not where it was in the previous frame.
+inline bool isDisplaced(const Instance& instance) {
+  return instance.moves && instance.worldFromObject != instance.previousWorldFromObject;
+}
+
 /// The instances of all nodes of a scene, in the order of the nodes, at time 0.
 std::vector<Instance> makeInstances(const Scene& scene);
 

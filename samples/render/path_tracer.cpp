@@ -264,6 +264,7 @@ PathSample tracePath(const World& world, const Surface& first, std::uint32_t bou
       firstValue = value;
       result.source = IndirectSource{next.position, next.geometricNormal, glm::vec3(0.0F)};
       result.distance = glm::distance(next.position, surface.position);
+      result.motion = next.previousPosition - next.position;
     }
     if (bounce == bounces || throughput == glm::vec3(0.0F)) {
       break;

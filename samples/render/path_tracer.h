@@ -35,6 +35,8 @@ struct PathSample {
   std::optional<IndirectSource> source;
   /// Length of the path's first segment; infinite if it met nothing.
   float distance = std::numeric_limits<float>::infinity();
+  /// Where the end of the path's first segment was one frame ago, minus where it is; 0 if it met nothing.
+  glm::vec3 motion{0.0F};
   /// Rays traced.
   std::uint32_t rays = 0;
 };

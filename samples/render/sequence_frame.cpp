@@ -59,6 +59,7 @@ walr::Frame toFrame(const Film& film, const View& view, int number) {
         toImage(film, 1, [&](std::size_t i, int /*component*/) { return film.specular[i].distance; });
     frame.roughness = toImage(film, 1, [&](std::size_t i, int /*component*/) { return film.specular[i].roughness; });
     frame.specularAlbedo = toImage(film, 3, [&](std::size_t i, int c) { return film.specular[i].albedo[c]; });
+    frame.specularMotion = toImage(film, 3, [&](std::size_t i, int c) { return film.specular[i].motion[c]; });
   }
   frame.objectId = toImage(film, 1, [&](std::size_t i, int /*component*/) {
     const std::uint32_t id = film.gbuffer[i].objectId;

@@ -111,9 +111,10 @@ Surface evaluateSurface(const Scene& scene, const Instance& instance, const Hit&
   Surface surface;
   const glm::vec2 weights = exact::weightsOfHit(ray.origin, ray.direction, corners[0], corners[1], corners[2]);
   surface.position = exact::interpolate(corners[0], corners[1], corners[2], weights);
-  surface.previousPosition = instance.moves ? glm::vec3(instance.previousWorldFromObject *
-                                                        glm::vec4(interpolate(mesh.positions, triangle, weights), 1.0F))
-                                            : surface.position;
+  surface.previousPosition = isDisplaced(instance)
+                                 ? glm::vec3(instance.previousWorldFromObject *
+                                             glm::vec4(interpolate(mesh.positions, triangle, weights), 1.0F))
+                                 : surface.position;
   // 2^-18: 64 times the relative rounding error (2^-24) of the corners' coordinates.
   constexpr float kRelativeOffset = 1.0F / 262144.0F;
   surface.rayOffset = extent * kRelativeOffset;

@@ -73,7 +73,7 @@ void read(const Json& document, ChannelMap& map) {
   const Json& channels = document["channels"];
   requireKnown(channels,
                {"Indirect", "Direct", "Albedo", "Normal", "Depth", "Motion", "Emission", "ObjectId", "Specular",
-                "SpecularAlbedo", "SpecularDistance", "Roughness"},
+                "SpecularAlbedo", "SpecularDistance", "Roughness", "SpecularMotion"},
                "\"channels\"");
   map.layout = projectLayout();
   map.layout.name = "channel map";

@@ -82,8 +82,12 @@ struct Frame {
   Image roughness;  ///< 1 component: linear (glTF), 0..1.
   Image
       specularAlbedo;  ///< 3 components: directional albedo of the specular lobe, as the renderer defines it; 0 on sky.
-  Image objectId;      ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
-  Camera camera;       ///< Of the images.
+  /// 3 components: where the first point that the specular path hit was in the previous frame, minus where it is; world
+  /// space, scene units. 0 where it did not move, where the path met nothing, and where there was no sample. Empty
+  /// unless specular light is requested, and if the files hold none.
+  Image specularMotion;
+  Image objectId;  ///< 1 component: number of the object in the pixel, below 0 where there is none; may be empty.
+  Camera camera;   ///< Of the images.
   std::optional<ImagePlace> place;  ///< Absent: the images are the whole picture.
   /// Projection and jitter of the frame before; for the first frame, those of this frame.
   glm::mat4 previousProjection{1.0F};

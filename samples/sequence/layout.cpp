@@ -42,6 +42,7 @@ constexpr std::array kProjectSpecular = {
     Plane{Role::SpecularDistance, "SpecularDistance", "Z"},
     Plane{Role::Roughness, "Roughness", "Y"},
     Plane{Role::SpecularAlbedo, "SpecularAlbedo", "RGB"},
+    Plane{Role::SpecularMotion, "SpecularMotion", "XYZ", true},
 };
 // Cycles has no pass of the distance, and one of roughness only if the scene's materials write it.
 constexpr std::array kCyclesSpecular = {
@@ -105,6 +106,8 @@ Image& imageOf(Frame& frame, Role role) {
       return frame.roughness;
     case Role::SpecularAlbedo:
       return frame.specularAlbedo;
+    case Role::SpecularMotion:
+      return frame.specularMotion;
     case Role::ObjectId:
       break;
   }

@@ -28,6 +28,7 @@ enum class Role {
   SpecularDistance,
   Roughness,
   SpecularAlbedo,
+  SpecularMotion,
 };
 
 /// One image of a layout: its name without the view layer, and one letter per component.

@@ -56,7 +56,10 @@ void SpecularLinter::add(const Frame& frame) {
     const float distance = frame.specularDistance.empty() ? 0.0F : frame.specularDistance.pixel(i)[0];
     const float roughness = frame.roughness.empty() ? 0.0F : frame.roughness.pixel(i)[0];
     const glm::vec3 others(distance, roughness, 0.0F);
-    notFinite_ += finite(light) && finite(colorAt(frame.specularAlbedo, i)) && finite(others) ? 0 : 1;
+    const glm::vec3 motion = frame.specularMotion.empty() ? glm::vec3(0.0F) : colorAt(frame.specularMotion, i);
+    const bool allFinite =
+        finite(light) && finite(colorAt(frame.specularAlbedo, i)) && finite(others) && finite(motion);
+    notFinite_ += allFinite ? 0 : 1;
     negative_ += std::min({light.x, light.y, light.z}) < 0.0F ? 1 : 0;
     badDistances_ += distance < 0.0F ? 1 : 0;
     badRoughness_ += roughness < 0.0F || roughness > 1.0F ? 1 : 0;

@@ -33,6 +33,9 @@ void writeFrame(const std::filesystem::path& directory, const Frame& frame) {
     appendChannels(channels, "SpecularDistance", "Z", frame.specularDistance, ExrType::Float);
     appendChannels(channels, "Roughness", "Y", frame.roughness);
     appendChannels(channels, "SpecularAlbedo", "RGB", frame.specularAlbedo);
+    if (!frame.specularMotion.empty()) {
+      appendChannels(channels, "SpecularMotion", "XYZ", frame.specularMotion, ExrType::Float);
+    }
   }
   if (!frame.objectId.empty()) {
     appendChannels(channels, "ObjectId", "Y", frame.objectId, ExrType::Float);

@@ -52,6 +52,8 @@ struct Agreement {
   std::uint32_t direct = 0;        // The same for light.
   std::uint32_t indirect = 0;
   std::uint32_t specular = 0;  // Light, distance, albedo and roughness.
+  std::uint32_t moving = 0;    // Pixels whose specular lobe shows something that moves, in one of both films.
+  std::uint32_t motion = 0;    // Those of them where this motion agrees.
 };
 
 Agreement compare(const Film& a, const Film& b) {
@@ -81,6 +83,10 @@ Agreement compare(const Film& a, const Film& b) {
                                agree({first.distance, first.roughness, 0.0F}, {second.distance, second.roughness, 0.0F})
                            ? 1
                            : 0;
+    // Motion is a difference of positions, whose roundings are small next to it, but not next to each component.
+    const float length = std::max(glm::length(first.motion), glm::length(second.motion));
+    result.moving += length > 0.0F ? 1 : 0;
+    result.motion += length > 0.0F && glm::distance(first.motion, second.motion) <= kRoundingOfHalf * length ? 1 : 0;
   }
   return result;
 }
@@ -98,8 +104,11 @@ void expectAgreement(const Film& cpu, const Film& gpu) {
   EXPECT_GE(share(found.indirect), kLeast);
   ASSERT_EQ(gpu.specular.size(), cpu.specular.size());
   if (cpu.specular.empty()) return;
-  std::cout << "specular " << 100.0 * share(found.specular) << " %\n";
+  std::cout << "specular " << 100.0 * share(found.specular) << " %, motion " << found.motion << " of " << found.moving
+            << " pixels\n";
   EXPECT_GE(share(found.specular), kLeast);
+  EXPECT_GT(found.moving, 0U);
+  EXPECT_GE(found.motion, kLeast * found.moving);
 }
 
 // A scene with both tracers.
@@ -332,6 +341,27 @@ TEST_F(Agreements, OfSpecularLight) {
   }
   // See `OfReferences`.
   EXPECT_GE(static_cast<double>(agreeing), 0.96 * static_cast<double>(cpu.specular.pixelCount()));
+}
+
+// A mirror shows a wall, which reflects a moving ceiling: in the virtual image, it moves the other way up.
+TEST_F(Agreements, OfMotionBehindMirrors) {
+  render::test::SceneBuilder builder;
+  builder.sky({0.5F, 0.6F, 0.7F}).scene().specular = true;
+  const std::uint32_t mirror = builder.material({0.9F, 0.8F, 0.7F});
+  const std::uint32_t wall = builder.material({0.5F, 0.4F, 0.3F});
+  builder.scene().materials[mirror].metallic = 1.0F;
+  builder.scene().materials[mirror].roughness = 0.0F;
+  builder.scene().materials[wall].roughness = 0.3F;
+  builder.quad(mirror, {-9.0F, 0.0F, 9.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -18.0F});
+  builder.quad(wall, {-9.0F, 0.0F, -4.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 9.0F, 0.0F});
+  builder.move(builder.quad(wall, {-9.0F, 4.0F, -9.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 12.0F}), glm::vec3(0.0F),
+               {0.4F, 0.9F, 0.1F});
+  builder.camera({0.0F, 2.0F, 2.0F}, {0.0F, 0.0F, -2.0F});
+  Pair pair(gpu, std::move(builder.scene()));
+  pair.moveTo(3);
+  SamplingSettings settings = settingsOf(render::Sampler::Kind::BlueNoise, 4, 3);
+  settings.gbuffer = render::GBufferMode::BehindMirrors;
+  expectAgreement(pair.onProcessor(settings), pair.onDevice(settings));
 }
 
 // A reference of an odd and of an even number of samples, with all its options.

@@ -155,5 +155,25 @@ TEST(MirrorsInFilms, AreReplacedBelowTheirRoughness) {
   }
 }
 
+// A mirror shows a smooth wall, which reflects a moving ceiling. In the virtual image, up is down.
+TEST(MirrorsInFilms, TurnTheMotionOfWhatIsReflected) {
+  SceneBuilder builder;
+  builder.scene().specular = true;
+  builder.quad(metal(builder, glm::vec3(0.5F), 0.0F), {-9.0F, 0.0F, 9.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -18.0F});
+  const std::uint32_t varnish = builder.material(glm::vec3(0.8F));
+  builder.scene().materials[varnish].roughness = 0.0F;
+  builder.quad(varnish, {-9.0F, 0.0F, -4.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 9.0F, 0.0F});
+  const std::uint32_t ceiling = builder.quad(varnish, {-9.0F, 4.0F, -9.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 18.0F});
+  builder.move(ceiling, glm::vec3(0.0F), {0.4F, 0.2F, 0.1F});
+  const std::uint32_t camera = builder.camera({0.0F, 2.0F, -1.0F}, {0.0F, 0.0F, -3.0F});  // At 45 degrees.
+  World world(builder.scene());
+  world.moveTo(1.0, 0.0);
+  SamplingSettings settings;
+  settings.gbuffer = GBufferMode::BehindMirrors;
+  const View view = viewFrom(world, camera, 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
+  const glm::vec3 motion = renderFilm(world, view, settings).specular[0].motion;
+  EXPECT_LT(glm::distance(motion, {-0.4F, 0.2F, -0.1F}), 1e-5F);
+}
+
 }  // namespace
 }  // namespace walr::render

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "samples/errors.h"
@@ -175,6 +176,7 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
     EXPECT_EQ(frame.specularDistance.pixel(i)[0] > 0.0F, !sky);
     EXPECT_EQ(frame.specularAlbedo.pixel(i)[0] >= 0.0199F, !sky);
   }
+  ASSERT_FALSE(frame.specularMotion.empty());
   struct Case {
     std::vector<std::string> names;
     std::function<void(Frame&)> change;
@@ -194,6 +196,7 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
       {{"roughness-range"}, [&](Frame& spoiled) { eachRoughness(spoiled, [](float r) { return 100.0F * r; }); }},
       {{"specular-distance"}, [](Frame& spoiled) { spoiled.specularDistance.at(9, 40, 0) = -1.0F; }},
       {{"specular-not-finite"}, [](Frame& spoiled) { spoiled.specularDistance.at(9, 40, 0) = NAN; }},
+      {{"specular-not-finite"}, [](Frame& spoiled) { spoiled.specularMotion.at(9, 40, 2) = NAN; }},
       {{"specular-negative"}, [](Frame& spoiled) { spoiled.specular.at(9, 40, 1) = -1.0F; }},
   };
   for (const Case& spoilt : cases) {
@@ -206,6 +209,24 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
   // A folder with the light is not continued without it.
   options.specular = false;
   fg::test::expectError<InputError>([&] { render(options); }, {"'specular'"});
+}
+
+// What reflections show moves only where an object does.
+TEST(RenderSequence, WritesTheMotionOfWhatIsReflected) {
+  for (const auto& [scene, moves] : {std::pair("turntable.gltf", true), std::pair("mirrors.gltf", false)}) {
+    const walr::test::TemporaryDirectory folder;
+    RenderOptions options = smallBox(folder.path());
+    options.scene = std::string(WALR_SCENES "/") + scene;
+    options.specular = true;
+    options.firstFrame = options.lastFrame = 5;
+    render(options);
+    SequenceOptions reading;
+    reading.light.specular = SpecularWish::IfHeld;
+    const Frame frame = Sequence(folder.path(), reading).read(0);
+    ASSERT_EQ(frame.specularMotion.components(), 3);
+    const auto moving = std::ranges::count_if(frame.specularMotion.values(), [](float value) { return value != 0.0F; });
+    EXPECT_EQ(moving > 0, moves) << scene;
+  }
 }
 
 TEST(RenderSequence, ReplacesMirrors) {

@@ -10,6 +10,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "samples/render/exact/specular.h"
 #include "samples/render/film.h"
@@ -252,6 +253,73 @@ TEST(Specular, FilmOfAMirrorShowsWhatItReflects) {
   EXPECT_EQ(without.light, glm::vec3(0.0F));
   EXPECT_EQ(without.distance, 0.0F);
   EXPECT_EQ(without.albedo, pixel.albedo);
+}
+
+// A floor that reflects the point (0, 1, -4) of a wall to a camera with one pixel.
+struct WallInAMirror {
+  explicit WallInAMirror(float roughness = 0.0F) {
+    floor(builder, material(builder, glm::vec3(0.9F), 1.0F, roughness));
+    wall = builder.quad(material(builder, glm::vec3(0.5F), 0.0F, 1.0F), {-9.0F, -1.0F, -4.0F}, {18.0F, 0.0F, 0.0F},
+                        {0.0F, 9.0F, 0.0F});
+    camera = builder.camera({0.0F, 2.0F, -1.0F}, {0.0F, 0.0F, -3.0F});
+  }
+  [[nodiscard]] SpecularPixel render(double seconds, double previousSeconds, const SamplingSettings& settings = {}) {
+    World world(builder.scene());
+    world.moveTo(seconds, previousSeconds);
+    return renderFilm(world, viewOf(world, camera), settings).specular.at(0);
+  }
+
+  SceneBuilder builder;
+  std::uint32_t wall = 0;
+  std::uint32_t camera = 0;
+};
+
+TEST(SpecularMotion, IsThatOfWhatAMirrorShows) {
+  const glm::vec3 way(0.4F, -0.2F, 0.1F);
+  WallInAMirror moving;
+  moving.builder.move(moving.wall, -0.5F * way, 0.5F * way);
+  EXPECT_LT(glm::distance(moving.render(0.5, 0.25).motion, -0.25F * way), 1e-5F);
+  EXPECT_EQ(moving.render(0.5, 0.5).motion, glm::vec3(0.0F));
+  EXPECT_EQ(moving.render(3.0, 2.0).motion, glm::vec3(0.0F));  // The animation has ended.
+
+  WallInAMirror still;
+  EXPECT_EQ(still.render(0.5, 0.25).motion, glm::vec3(0.0F));
+  still.builder.move(still.camera, {0.0F, 2.0F, -1.0F}, {0.0F, 2.1F, -1.0F});
+  EXPECT_EQ(still.render(0.5, 0.25).motion, glm::vec3(0.0F));
+
+  // About the wall's normal. The lobe of the mirror is a thousandth wide.
+  WallInAMirror turning;
+  turning.builder.turn(turning.wall, glm::angleAxis(-0.4F, glm::vec3(0.0F, 0.0F, 1.0F)),
+                       glm::angleAxis(0.4F, glm::vec3(0.0F, 0.0F, 1.0F)));
+  const glm::vec3 arc(std::sin(0.2F), std::cos(0.2F) - 1.0F, 0.0F);
+  EXPECT_LT(glm::distance(turning.render(0.5, 0.25).motion, arc), 1e-3F);
+
+  SamplingSettings unsampled;
+  unsampled.light = {.columns = 2};
+  unsampled.lightOffset = {1, 0};
+  EXPECT_EQ(moving.render(0.5, 0.25, unsampled).motion, glm::vec3(0.0F));
+}
+
+// Of a rough floor, some paths meet the wall and some the sky, which does not move.
+TEST(SpecularMotion, IsTheMeanOverThePaths) {
+  const glm::vec3 way(0.4F, -0.2F, 0.1F);
+  WallInAMirror rough(0.6F);
+  rough.builder.move(rough.wall, -0.5F * way, 0.5F * way);
+  SamplingSettings settings;
+  constexpr std::uint32_t kPaths = 32;
+  glm::vec3 sum(0.0F);
+  std::uint32_t toTheWall = 0;
+  for (settings.firstSample = 0; settings.firstSample < kPaths; ++settings.firstSample) {
+    const SpecularPixel pixel = rough.render(0.5, 0.25, settings);
+    EXPECT_EQ(pixel.motion == glm::vec3(0.0F), pixel.distance >= kBackgroundDepth);
+    sum += pixel.motion;
+    toTheWall += pixel.distance < kBackgroundDepth ? 1 : 0;
+  }
+  EXPECT_GT(toTheWall, 4U);
+  EXPECT_LT(toTheWall, kPaths - 4U);
+  settings.firstSample = 0;
+  settings.samples = kPaths;
+  EXPECT_LT(glm::distance(rough.render(0.5, 0.25, settings).motion, sum / float{kPaths}), 1e-6F);
 }
 
 }  // namespace

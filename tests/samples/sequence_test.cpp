@@ -138,6 +138,9 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   written.specularAlbedo.at(2, 1, 0) = 0.5F;
   written.specularDistance.at(2, 1, 0) = kBackgroundDepth;
   written.roughness.at(2, 1, 0) = 0.25F;
+  written.specularMotion = Image(6, 4, 3);
+  for (const int component : {0, 1, 2})
+    written.specularMotion.at(2, 1, component) = 1e5F * float(component - 1) + 0.125F;
   writeFrame(directory.path(), written);
   Reference reference{.indirect = Image(6, 4, 3), .specular = Image(6, 4, 3), .specularHalf = Image(6, 4, 3)};
   reference.indirect.at(5, 3, 2) = 2.0F;
@@ -165,10 +168,37 @@ TEST_F(SequenceTest, TheProjectsOwnLayoutRoundTrips) {
   EXPECT_EQ(read.specularAlbedo.at(2, 1, 0), 0.5F);
   EXPECT_EQ(read.specularDistance.at(2, 1, 0), kBackgroundDepth);
   EXPECT_EQ(read.roughness.at(2, 1, 0), 0.25F);
+  EXPECT_TRUE(std::ranges::equal(read.specularMotion.values(), written.specularMotion.values()));
   EXPECT_EQ(read.reference->specular.at(5, 3, 1), 4.0F);
   EXPECT_EQ(read.reference->specularHalf.at(5, 3, 0), 5.0F);
   EXPECT_EQ(read.nonDiffuse.at(2, 1, 0), 3.0F * 0.5F);  // Composites add it.
   EXPECT_TRUE(open().read(0).specular.empty());
+  EXPECT_TRUE(open().read(0).specularMotion.empty());
+}
+
+TEST_F(SequenceTest, TheMotionOfSpecularLightIsOptional) {
+  SequenceOptions options;
+  options.light.specular = SpecularWish::Denoised;
+  const auto write = [&](int number, bool withMotion, float value = 0.0F) {
+    Frame frame = test::projectFrame(number, 6, 4);
+    frame.specular = frame.specularAlbedo = Image(6, 4, 3);
+    frame.specularDistance = frame.roughness = Image(6, 4, 1);
+    if (withMotion) frame.specularMotion = Image(6, 4, 3);
+    if (withMotion) frame.specularMotion.at(2, 1, 1) = value;
+    writeFrame(directory.path(), frame);
+  };
+  write(0, false);
+  write(1, true);
+  EXPECT_TRUE(open(options).read(1).specularMotion.empty());  // The first frame decides.
+  EXPECT_FALSE(open(options).read(1).specular.empty());
+  write(0, true);
+  write(1, false);
+  expectRefused({"noisy_0001.exr", "missing channels SpecularMotion.X, SpecularMotion.Y, SpecularMotion.Z"}, options);
+  write(1, true, std::numeric_limits<float>::infinity());
+  fg::test::expectError<InputError>([&] { static_cast<void>(open(options).read(1)); },
+                                    {"noisy_0001.exr", "SpecularMotion.Y", "not finite", "(2, 1)"});
+  options.nonFinite = NonFinitePolicy::Replace;
+  EXPECT_EQ(open(options).read(1).nonFinite.size(), 1U);
 }
 
 TEST_F(SequenceTest, ReadsSparseLight) {

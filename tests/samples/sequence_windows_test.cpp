@@ -244,11 +244,11 @@ TEST_F(SequenceWindows, AMapSaysWhichChannelsHoldWhat) {
 }
 
 /// The map with specular light, which is in these channels.
-constexpr std::array kSpecularChannels{"s.R", "s.G", "s.B", "c.R", "c.G", "c.B", "d.Z", "r.Y"};
+constexpr std::array kSpecularChannels{"s.R", "s.G", "s.B", "c.R", "c.G", "c.B", "d.Z", "r.Y", "m.X", "m.Y", "m.Z"};
 std::string mapWithSpecularLight() {
   std::string json = kMap;
   json.insert(json.find("\"Indirect\""), R"("Specular": ["s.R", "s.G", "s.B"], "SpecularAlbedo": ["c.R", "c.G", "c.B"],
-    "SpecularDistance": ["d.Z"], "Roughness": ["r.Y"], )");
+    "SpecularDistance": ["d.Z"], "Roughness": ["r.Y"], "SpecularMotion": ["m.X", "m.Y", "m.Z"], )");
   return json;
 }
 
@@ -273,6 +273,8 @@ TEST_F(SequenceWindows, AMapFindsSpecularLight) {
   EXPECT_EQ(frame.specularAlbedo.at(3, 1, 2), valueOf(first + 5));
   EXPECT_EQ(frame.specularDistance.at(3, 1, 0), valueOf(first + 6));
   EXPECT_EQ(frame.roughness.at(3, 1, 0), valueOf(first + 7));
+  for (const int component : {0, 1, 2})
+    EXPECT_EQ(frame.specularMotion.at(3, 1, component), valueOf(first + 8 + component));
 
   json.replace(json.find("times albedo"), 5, "without");
   // A channel of the file may stand for several: those of a grey light for one.

@@ -57,7 +57,7 @@ struct TextureData {
 };
 
 // `InstanceData::flags`
-WALR_CONSTANT uint kMoves = 1u;
+WALR_CONSTANT uint kDisplaced = 1u;  // See `render::isDisplaced`.
 WALR_CONSTANT uint kMirrored = 2u;
 
 // See `render::Instance`.

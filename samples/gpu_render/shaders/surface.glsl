@@ -120,7 +120,7 @@ Surface evaluateSurface(Hit hit, Ray ray) {
   const vec2 weights = weightsOfHit(ray.origin, ray.direction, world[0], world[1], world[2]);
   surface.position = interpolate(world[0], world[1], world[2], weights);
   surface.previousPosition = surface.position;
-  if ((instance.flags & kMoves) != 0u) {
+  if ((instance.flags & kDisplaced) != 0u) {
     const vec3 inObject = interpolate3(mesh.positions, corners, weights);
     surface.previousPosition = vec3(instance.previousWorldFromObject * vec4(inObject, 1.0));
   }

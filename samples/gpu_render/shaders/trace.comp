@@ -38,6 +38,10 @@ layout(set = 0, binding = 22, COLOR) uniform writeonly image2D outSpecular;
 // Albedo of the specular lobe; alpha: number of its paths. The alpha of the normal then holds roughness.
 layout(set = 0, binding = 23, COLOR) uniform writeonly image2D outSpecularAlbedo;
 #endif
+#ifdef SPECULAR_MOTION
+// See `render::SpecularPixel::motion`.
+layout(set = 0, binding = 24, COLOR) uniform writeonly image2D outSpecularMotion;
+#endif
 
 const uint kSrgbTable = 0u;
 const uint kLinearTable = 256u;
@@ -154,6 +158,7 @@ void main() {
 #ifdef SPECULAR
   vec3 specular = vec3(0.0);
   float inverseDistance = 0.0;
+  vec3 specularMotion = vec3(0.0);
   uint specularPaths = 0u;
   vec3 firstAlbedo = vec3(0.0);  // Of the specular lobe of `first`.
   vec3 shownAlbedo = vec3(0.0);  // The same of the G-buffer.
@@ -207,7 +212,10 @@ void main() {
         }
 #ifdef SPECULAR
         if (ofSpecular) {
-          if (met && bounce == 0u) inverseDistance += 1.0 / distance(next.position, surface.position);
+          if (met && bounce == 0u) {
+            inverseDistance += 1.0 / distance(next.position, surface.position);
+            specularMotion += next.previousPosition - next.position;
+          }
           specular += found;
         } else
 #endif
@@ -345,6 +353,9 @@ void main() {
   const float shareOfSpecular = 1.0 / float(max(specularPaths, 1u));
   imageStore(outSpecular, p, representable(vec4(specular, inverseDistance) * shareOfSpecular));
   imageStore(outSpecularAlbedo, p, vec4(shownAlbedo, float(specularPaths)));
+#ifdef SPECULAR_MOTION
+  imageStore(outSpecularMotion, p, vec4(mat3(imageFromWorld) * specularMotion * shareOfSpecular, 0.0));
+#endif
 #endif
   imageStore(outDirect, p, representable(vec4(direct, float(paths))));
   imageStore(outIndirect, p, representable(vec4(indirect, float(rays))));
