@@ -43,7 +43,7 @@ std::uint32_t integerChannels(const fg::FormatInfo& format) {
 
 }  // namespace
 
-const std::array<HostInput, 9> kHostInputs{{
+const std::array<HostInput, 10> kHostInputs{{
     {kLightingName, &DenoiserInputs::lighting, kColour, 3,
      "Noisy diffuse indirect radiance without the first hit's albedo, linear, 1 sample per pixel"},
     {"depth", &DenoiserInputs::depth, VK_FORMAT_R32_SFLOAT, 1,
@@ -62,6 +62,9 @@ const std::array<HostInput, 9> kHostInputs{{
      HostInput::Of::SpecularLight},
     {"roughness", &DenoiserInputs::roughness, VK_FORMAT_R8_UNORM, 1,
      "For specular light: linear roughness as in glTF, whose square is GGX's alpha", false,
+     HostInput::Of::SpecularLight},
+    {"specular_motion", &DenoiserInputs::specularMotion, kColour, 3,
+     "For specular light: where what is reflected was in the previous frame, minus where it is; world space", true,
      HostInput::Of::SpecularLight},
 }};
 

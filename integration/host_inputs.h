@@ -22,7 +22,7 @@ struct HostInput {
 };
 
 /// The textures of `DenoiserInputs`.
-extern const std::array<HostInput, 9> kHostInputs;
+extern const std::array<HostInput, 10> kHostInputs;
 
 /// The input with a name; null if there is none.
 const HostInput* hostInputNamed(std::string_view name);

@@ -121,12 +121,13 @@ std::vector<WalrLightKind> checkedLights(const WalrDenoiserInfo& info) {
     const std::string name = "WalrDenoiserInfo::" + std::string(kLightNames.at(i).images) + "light_kind";
     kinds.push_back(checkedEnum(info.*kLightKinds.at(i), WALR_LIGHT_SPECULAR, name.c_str()));
   }
-  const bool formats =
-      info.specular_albedo_format != VK_FORMAT_UNDEFINED || info.roughness_format != VK_FORMAT_UNDEFINED;
+  const bool formats = info.specular_albedo_format != VK_FORMAT_UNDEFINED ||
+                       info.roughness_format != VK_FORMAT_UNDEFINED ||
+                       info.specular_motion_format != VK_FORMAT_UNDEFINED;
   if (formats && std::ranges::count(kinds, WALR_LIGHT_SPECULAR) == 0) {
     throw Error(WALR_ERROR_INVALID_ARGUMENT,
-                "WalrDenoiserInfo::specular_albedo_format or roughness_format is given, but no light is specular: set "
-                "light_kind or second_light_kind to WALR_LIGHT_SPECULAR");
+                "WalrDenoiserInfo::specular_albedo_format, roughness_format or specular_motion_format is given, but no "
+                "light is specular: set light_kind or second_light_kind to WALR_LIGHT_SPECULAR");
   }
   return kinds;
 }
@@ -183,7 +184,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
                formatOr(info.normal_format, 2),     formatOr(info.motion_format, 3),
                formatOr(info.albedo_format, 4),     formatOr(info.object_id_format, 5),
                formatOr(info.confidence_format, 6), formatOr(info.specular_albedo_format, 7),
-               formatOr(info.roughness_format, 8)},
+               formatOr(info.roughness_format, 8),  formatOr(info.specular_motion_format, 9)},
       resultFormat_(checkedResultFormat(info.denoised_format)),
       historyLength_(info.history_length == VK_TRUE),
       lightDirection_(info.light_direction == VK_TRUE),

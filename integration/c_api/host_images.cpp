@@ -115,7 +115,8 @@ constexpr std::array kSharedMembers{SharedMember{&DenoiserInputs::depth, &WalrFr
                                     SharedMember{&DenoiserInputs::albedo, &WalrFrame::albedo},
                                     SharedMember{&DenoiserInputs::objectId, &WalrFrame::object_id},
                                     SharedMember{&DenoiserInputs::specularAlbedo, &WalrFrame::specular_albedo},
-                                    SharedMember{&DenoiserInputs::roughness, &WalrFrame::roughness}};
+                                    SharedMember{&DenoiserInputs::roughness, &WalrFrame::roughness},
+                                    SharedMember{&DenoiserInputs::specularMotion, &WalrFrame::specular_motion}};
 
 /// A slot for an image of a light.
 /// @param name of the first light's image

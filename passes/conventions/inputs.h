@@ -36,7 +36,7 @@ struct InputConventions {
   }
 };
 
-/// The textures that denoisers take, `albedo` for diffuse light only. `objectId` and `confidence` may be left out. All
+/// The textures that denoisers take, `albedo` for diffuse light only. `objectId`, `confidence` and `specularMotion` may be left out. All
 /// have the extent of the image, but see `LightPattern` for that of the lighting.
 struct DenoiserInputs {
   fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per texel. Alpha: see
@@ -52,11 +52,15 @@ struct DenoiserInputs {
   /// R8_UNORM, or another format of floats: how much of its history a pixel may use, 0 to 1. If present, it scales the
   /// longest history of light; NaN counts as 1.
   fg::Texture confidence = {};
-  /// The next two are of specular light only (`InputConventions::specular`). The lighting is then the light that the
+  /// The next three are of specular light only (`InputConventions::specular`). The lighting is then the light that the
   /// specular lobe reflects, over the lobe's directional albedo, and its alpha is the distance from the surface to what
   /// it reflects, scene units, 0 where there is no sample.
   fg::Texture specularAlbedo = {};  ///< RGBA16F: directional albedo of the specular lobe, in the place of `albedo`.
   fg::Texture roughness = {};       ///< R8_UNORM, or another format of floats: linear roughness (glTF).
+  /// RGBA16F: where the point that specular light comes from, at the distance that alpha of the lighting says, was in the
+  /// previous frame, minus where it is; world space, scene units. If not present, or where it is not finite, what is
+  /// reflected counts as still.
+  fg::Texture specularMotion = {};
   fg::Buffer frame;                 ///< Upload of `FrameConstants` (passes/conventions/frame.h).
   InputConventions conventions;
   SceneDescription scene = {};

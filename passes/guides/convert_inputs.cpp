@@ -118,6 +118,7 @@ DenoiserInputs addConvertInputs(StageGraph graph, DenoiserInputs inputs, const H
   move("albedo", inputs.albedo);
   move("specular albedo", inputs.specularAlbedo);
   move("roughness", inputs.roughness);
+  move("specular motion", inputs.specularMotion);
   if (all && inputs.objectId.valid()) {
     inputs.objectId = convert(graph, "object numbers", shaders::convertInputNumbers, inputs.objectId, host)
                           .store("target", converted(graph, "object numbers", VK_FORMAT_R32_UINT, inputs.objectId));

@@ -74,7 +74,11 @@ void readReflections(fg::PassBuilder& pass, const ReflectionSearch& search) {
   const ReflectionMotionConstants constants{thresholds.planeTolerance, thresholds.normalThreshold,
                                             search.settings.maxHistory, search.reflection.surfaceFrom,
                                             search.reflection.historyPerLobe};
-  pass.sample("roughness", search.inputs.roughness).sample("previousReflector", search.reflectors.previous);
+  const fg::Texture motion = search.inputs.specularMotion;
+  pass.sample("roughness", search.inputs.roughness)
+      .sample("previousReflector", search.reflectors.previous)
+      .specialize("kSpecularMotion", motion.valid())
+      .sampleIf(motion.valid(), "specularMotion", motion, search.inputs.lighting);
   if (search.host) {
     readGBuffer(pass, search.inputs, *search.host);
     pass.constants(HostReflectionConstants{guideConstants(search.graph, search.inputs, *search.host, {}), constants});

@@ -37,12 +37,17 @@ class UploadedTexture {
   fg::vk::StagedImage image_;
 };
 
-/// Formats of the host's inputs; the object numbers are undefined if frames have none.
-std::array<VkFormat, kHostInputs.size()> formatsOf(bool objectIds) {
+bool isGiven(const HostInput& input, const OptionalImages& given, bool specular) {
+  if (input.texture == &DenoiserInputs::objectId) return given.objectIds;
+  if (input.texture == &DenoiserInputs::specularMotion) return given.specularMotion && specular;
+  return !input.optional;
+}
+
+/// Formats of the host's inputs; undefined for those that frames do not have.
+std::array<VkFormat, kHostInputs.size()> formatsOf(const OptionalImages& given, bool specular) {
   std::array<VkFormat, kHostInputs.size()> formats{};
   std::ranges::transform(kHostInputs, formats.begin(), [&](const HostInput& input) {
-    const bool given = !input.optional || (objectIds && input.texture == &DenoiserInputs::objectId);
-    return given ? input.format : VK_FORMAT_UNDEFINED;
+    return isGiven(input, given, specular) ? input.format : VK_FORMAT_UNDEFINED;
   });
   return formats;
 }
@@ -77,12 +82,13 @@ LightSlopes slopeImages(std::span<const glm::uvec2> texels, int width, int heigh
 
 struct GpuDenoiser::State {
   State(const GpuDevice& gpu, std::span<Denoiser* const> methods, fg::Extent extent, const Layout& frameLayout,
-        const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds, const fg::vk::Membership& shared)
+        const InspectionWish& wanted, std::uint32_t framesInFlight, const OptionalImages& given,
+        const fg::vk::Membership& shared)
       : layout(frameLayout),
         declared(declareDenoiseGraph(
             lightsOf(methods, frameLayout), extent, layout.conventions,
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable},
-            formatsOf(objectIds), {}, wanted)),
+            formatsOf(given, layout.conventions.specular), {}, wanted)),
         graph(gpu, declared.graph, framesInFlight, shared),
         depth(makeUpload(gpu, declared.inputs.depth, framesInFlight)),
         normal(makeUpload(gpu, declared.inputs.normal, framesInFlight)),
@@ -93,7 +99,9 @@ struct GpuDenoiser::State {
       outputs.push_back(graph.readBack(light.output));
     }
     if (layout.conventions.specular) roughness.emplace(makeUpload(gpu, declared.inputs.roughness, framesInFlight));
-    if (objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
+    if (declared.inputs.specularMotion.valid())
+      specularMotion.emplace(makeUpload(gpu, declared.inputs.specularMotion, framesInFlight));
+    if (given.objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
     for (const DebugView& view : declared.views) views.push_back(graph.readBack(view.texture));
     if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
     if (wanted.lightDirection) lightDirection = graph.readBack(declared.inspection.lightDirection());
@@ -106,14 +114,9 @@ struct GpuDenoiser::State {
 
   /// Record and submit a frame.
   /// @param lights    as many as there are methods
-  /// @param lobeAlbedo    of the lobe that reflects the lights
-  /// @param lobeRoughness empty unless the light is specular
-  void submit(const PackedFrame& packed, std::span<const LightTexels> lights, const std::vector<Rgba16>& lobeAlbedo,
-              const std::vector<std::uint8_t>& lobeRoughness);
+  void submit(const PackedFrame& packed, std::span<const LightTexels> lights, const PackedLobe& lobe);
   /// The same for lights of the lobe of the frame's own light.
-  void submit(const PackedFrame& packed, std::span<const LightTexels> lights) {
-    submit(packed, lights, packed.albedo, packed.roughness);
-  }
+  void submit(const PackedFrame& packed, std::span<const LightTexels> lights) { submit(packed, lights, packed.lobe); }
   /// Wait for the oldest frame and read it back.
   DenoisedPicture finish();
 
@@ -126,6 +129,7 @@ struct GpuDenoiser::State {
   UploadedTexture motion;
   UploadedTexture albedo;
   std::optional<UploadedTexture> roughness;
+  std::optional<UploadedTexture> specularMotion;
   std::optional<UploadedTexture> objectId;
   std::vector<ReadbackGraph::Index> outputs;  ///< Of each light.
   std::vector<ReadbackGraph::Index> views;
@@ -144,7 +148,7 @@ std::optional<double> DenoisedPicture::milliseconds() const {
 }
 
 void GpuDenoiser::State::submit(const PackedFrame& packed, std::span<const LightTexels> lights,
-                                const std::vector<Rgba16>& lobeAlbedo, const std::vector<std::uint8_t>& lobeRoughness) {
+                                const PackedLobe& lobe) {
   const Frame& frame = packed.frame;
   if (lights.size() != lighting.size()) {
     throw std::logic_error("GpuDenoiser::submit: the frame has " + std::to_string(lights.size()) +
@@ -163,8 +167,9 @@ void GpuDenoiser::State::submit(const PackedFrame& packed, std::span<const Light
   depth.upload(recorded, frame.depth.values());
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);
-  albedo.upload(recorded, lobeAlbedo);
-  if (roughness) roughness->upload(recorded, lobeRoughness);
+  albedo.upload(recorded, lobe.albedo);
+  if (roughness) roughness->upload(recorded, lobe.roughness);
+  if (specularMotion) specularMotion->upload(recorded, lobe.motion);
   if (objectId) objectId->upload(recorded, packed.objectId);
   graph.submit(recorded);
 }
@@ -198,12 +203,12 @@ DenoisedPicture GpuDenoiser::State::finish() {
 
 GpuDenoiser::GpuDenoiser(const GpuDevice& device, std::span<Denoiser* const> methods, fg::Extent extent,
                          const Layout& layout, const InspectionWish& wanted, std::uint32_t framesInFlight,
-                         bool objectIds, const fg::vk::Membership& shared)
-    : state_(std::make_unique<State>(device, methods, extent, layout, wanted, framesInFlight, objectIds, shared)) {}
+                         const OptionalImages& given, const fg::vk::Membership& shared)
+    : state_(std::make_unique<State>(device, methods, extent, layout, wanted, framesInFlight, given, shared)) {}
 GpuDenoiser::GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-                         const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds,
+                         const InspectionWish& wanted, std::uint32_t framesInFlight, const OptionalImages& given,
                          const fg::vk::Membership& shared)
-    : GpuDenoiser(device, std::array{&method}, extent, layout, wanted, framesInFlight, objectIds, shared) {}
+    : GpuDenoiser(device, std::array{&method}, extent, layout, wanted, framesInFlight, given, shared) {}
 GpuDenoiser::~GpuDenoiser() = default;
 GpuDenoiser::GpuDenoiser(GpuDenoiser&&) noexcept = default;
 GpuDenoiser& GpuDenoiser::operator=(GpuDenoiser&&) noexcept = default;
@@ -239,7 +244,7 @@ void GpuDenoiser::submitLight(const PackedFrame& packed, const std::vector<Rgba1
 }
 
 void GpuDenoiser::submitLight(const PackedFrame& packed, const PackedLight& light) {
-  state_->submit(packed, std::array{LightTexels(light.lighting)}, light.albedo, light.roughness);
+  state_->submit(packed, std::array{LightTexels(light.lighting)}, light.lobe);
 }
 
 DenoisedPicture GpuDenoiser::finishPicture() {

@@ -35,6 +35,12 @@ struct DenoisedPicture {
 /// Noisy light of a frame, a texel each pixel or group of pixels.
 using LightTexels = std::span<const Rgba16>;
 
+/// Images that frames may have or not.
+struct OptionalImages {
+  bool objectIds = false;       ///< `Frame::objectId`.
+  bool specularMotion = false;  ///< `Frame::specularMotion`; of specular light only.
+};
+
 /// Runs a method on a Vulkan device, frame after frame: uploads the inputs, runs the passes, reads back the result, all
 /// in one frame graph that is compiled once. Several denoisers may exist on one device; only one may run at a time.
 ///
@@ -52,18 +58,18 @@ class GpuDenoiser {
   /// @param layout  conventions of the frames; must outlive this
   /// @param wanted  views, counters, light direction and lint words to read back with every frame
   /// @param framesInFlight  largest number of frames on the device at once, at least 1
-  /// @param objectIds  whether all frames have object numbers
+  /// @param given  what all frames have
   /// @param shared  what this denoiser shares with others on the device; see `fg::vk::SharedObjects` for the order of
   ///                their frames
   /// @throws fg::vk::Error if the device lacks something that the graph needs
   /// @throws std::invalid_argument naming a setting of the method that is out of range, or a view that does not exist,
   ///         or saying why lights cannot share guides
   GpuDenoiser(const GpuDevice& device, std::span<Denoiser* const> methods, fg::Extent extent, const Layout& layout,
-              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false,
+              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, const OptionalImages& given = {},
               const fg::vk::Membership& shared = {});
   /// The same for one light.
   GpuDenoiser(const GpuDevice& device, Denoiser& method, fg::Extent extent, const Layout& layout,
-              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, bool objectIds = false,
+              const InspectionWish& wanted = {}, std::uint32_t framesInFlight = 1, const OptionalImages& given = {},
               const fg::vk::Membership& shared = {});
   ~GpuDenoiser();
   GpuDenoiser(GpuDenoiser&&) noexcept;

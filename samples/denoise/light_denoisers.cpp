@@ -27,23 +27,22 @@ std::vector<Denoiser*> methodsOf(std::span<const LightMethod> lights) {
 
 LightDenoisers::LightDenoisers(const GpuDevice& device, std::span<const LightMethod> lights, fg::Extent extent,
                                const Layout& layout, const InspectionWish& wanted, std::uint32_t framesInFlight,
-                               bool objectIds)
+                               const OptionalImages& given)
     : shared_(std::make_shared<fg::vk::SharedObjects>(device.device().context(), device.pipelines())),
       light_(lights.front().light),
       together_(shareGuides(diffuseOf(lights))),
-      first_(device, methodsOf(lights.first(together_ ? 2 : 1)), extent, layout, wanted, framesInFlight, objectIds,
+      first_(device, methodsOf(lights.first(together_ ? 2 : 1)), extent, layout, wanted, framesInFlight, given,
              member()) {
   const InspectionWish nothing;
   const std::span<const LightMethod> diffuse = diffuseOf(lights);
   if (diffuse.size() > 1 && !together_) {
-    direct_.emplace(device, *diffuse[1].method, extent, layout, nothing, framesInFlight, objectIds, member());
+    direct_.emplace(device, *diffuse[1].method, extent, layout, nothing, framesInFlight, given, member());
   }
   if (diffuse.size() == lights.size()) return;
   specularLayout_ = std::make_unique<Layout>(layout);
   specularLayout_->conventions.specular = true;
   specularLayout_->conventions.light = {};  // Its samples are the pixels with a distance.
-  specular_.emplace(device, *lights.back().method, extent, *specularLayout_, nothing, framesInFlight, objectIds,
-                    member());
+  specular_.emplace(device, *lights.back().method, extent, *specularLayout_, nothing, framesInFlight, given, member());
 }
 
 fg::vk::Membership LightDenoisers::member() {

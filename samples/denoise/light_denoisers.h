@@ -37,7 +37,7 @@ class LightDenoisers {
   /// @param lights  the lights to denoise, in the order of `Light`: one, or the indirect and the direct light, or all.
   ///                The views and counters are those of the first. Where specular light comes alone, `layout` says so
   LightDenoisers(const GpuDevice& device, std::span<const LightMethod> lights, fg::Extent extent, const Layout& layout,
-                 const InspectionWish& wanted, std::uint32_t framesInFlight, bool objectIds);
+                 const InspectionWish& wanted, std::uint32_t framesInFlight, const OptionalImages& given);
 
   /// Convert a frame, which must have the lights. Any thread may call it.
   [[nodiscard]] PackedLights pack(Frame frame) const;

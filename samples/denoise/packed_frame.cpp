@@ -84,7 +84,8 @@ std::vector<Rgba16> packLight(const Frame& frame, Light light) {
 }
 
 PackedLight packSpecular(const Frame& frame) {
-  return {packLight(frame, Light::Specular), packRgba16(frame.specularAlbedo), packUnorm8(frame.roughness)};
+  return {packLight(frame, Light::Specular),
+          {packRgba16(frame.specularAlbedo), packUnorm8(frame.roughness), packRgba16(frame.specularMotion)}};
 }
 
 PackedFrame packFrame(Frame frame, Light light) {
@@ -92,11 +93,10 @@ PackedFrame packFrame(Frame frame, Light light) {
   if (light == Light::Specular) {
     PackedLight specular = packSpecular(frame);
     packed.lighting = std::move(specular.lighting);
-    packed.albedo = std::move(specular.albedo);
-    packed.roughness = std::move(specular.roughness);
+    packed.lobe = std::move(specular.lobe);
   } else {
     packed.lighting = packLight(frame, light);
-    packed.albedo = packRgba16(frame.albedo);
+    packed.lobe.albedo = packRgba16(frame.albedo);
   }
   packed.normal = packRgba16(frame.normal);
   packed.motion = packRgba16(frame.motion);

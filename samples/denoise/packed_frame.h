@@ -12,6 +12,13 @@ namespace walr {
 /// The bits of four half floats: a texel of RGBA16F.
 using Rgba16 = std::array<std::uint16_t, 4>;
 
+/// The lobe that reflects a light.
+struct PackedLobe {
+  std::vector<Rgba16> albedo;
+  std::vector<std::uint8_t> roughness;  ///< 255: 1; empty unless the light is specular.
+  std::vector<Rgba16> motion;           ///< Of specular light: `Frame::specularMotion`; empty if the frame has none.
+};
+
 /// A frame with its images in the formats of the denoiser's textures (`DenoiserInputs`).
 struct PackedFrame {
   Frame frame;
@@ -19,8 +26,7 @@ struct PackedFrame {
   std::vector<Rgba16> lighting;
   std::vector<Rgba16> normal;
   std::vector<Rgba16> motion;
-  std::vector<Rgba16> albedo;           ///< Of the lobe that reflects the light.
-  std::vector<std::uint8_t> roughness;  ///< 255: 1; empty unless the light is specular.
+  PackedLobe lobe;                      ///< Of that light.
   std::vector<std::uint32_t> objectId;  ///< 0xffffffff: no object; empty if the frame has no object numbers.
 };
 
@@ -34,8 +40,7 @@ Image unpackRgb(const std::vector<Rgba16>& texels, int width, int height);
 /// What differs between the lights of a frame.
 struct PackedLight {
   std::vector<Rgba16> lighting;
-  std::vector<Rgba16> albedo;           ///< Of the lobe that reflects the light.
-  std::vector<std::uint8_t> roughness;  ///< As in `PackedFrame`.
+  PackedLobe lobe;
 };
 
 /// @param light  the light to denoise

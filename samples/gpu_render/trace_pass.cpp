@@ -53,8 +53,7 @@ void addTrace(fg::Graph& graph, const GpuScene& scene, Precision precision, cons
                                                 {"outSpecular", &TracedTextures::specular},
                                                 {"outSpecularAlbedo", &TracedTextures::specularAlbedo},
                                                 {"outSpecularMotion", &TracedTextures::specularMotion}}};
-  const std::size_t ofSpecular = precision == Precision::Float ? 3 : 2;
-  const std::span<const Output> outputs = std::span(kAll).first(8 + (scene.specular() ? ofSpecular : 0));
+  const std::span<const Output> outputs = std::span(kAll).first(scene.specular() ? 11 : 8);
   const fg::Extent extent = graph.textureDesc(textures.depth).extent;
   fg::PassBuilder pass = graph.callback(
       kTracePass, [&scene, precision, inputs, textures, extent, outputs](const fg::RecordContext& context) {

@@ -40,7 +40,7 @@ struct TracedTextures {
   fg::Texture objectId;             ///< R32UI: index of the instance; 0xffffffff on sky.
   fg::Texture specular = {};        ///< See shaders/trace.comp; only with `Scene::specular`.
   fg::Texture specularAlbedo = {};  ///< The same.
-  fg::Texture specularMotion = {};  ///< The same; only with `Precision::Float`.
+  fg::Texture specularMotion = {};  ///< The same.
 
   /// The format of the textures without one of their own.
   static VkFormat format(Precision precision);

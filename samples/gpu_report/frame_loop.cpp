@@ -96,7 +96,7 @@ struct FrameLoop::State {
     add(declared.inputs.depth, packed.frame.depth.values());
     add(declared.inputs.normal, packed.normal);
     add(declared.inputs.motion, packed.motion);
-    add(declared.inputs.albedo, packed.albedo);
+    add(declared.inputs.albedo, packed.lobe.albedo);
   }
 
   void upload() {

@@ -75,6 +75,7 @@ void declareInputs(HostGraph& host, fg::Extent extent, const HostView& view, con
     picture(host.specular.emplace(), "specular light", kColourFormat);
     picture(host.specularAlbedo.emplace(), "specular albedo", kColourFormat);
     picture(host.roughness.emplace(), "roughness", VK_FORMAT_R8_UNORM);
+    picture(host.specularMotion.emplace(), "specular motion", kColourFormat);
     if (view.needsReference()) picture(host.referenceSpecular.emplace(), "reference specular light", kColourFormat);
   }
   if (view.needsReference()) {
@@ -109,6 +110,7 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
   if (scene.specular()) {
     traced.specular = color("traced specular light");
     traced.specularAlbedo = color("specular albedo");
+    traced.specularMotion = color("specular motion");
   }
   host.trace = gpu_render::declareTraceInputs(graph, scene);
   gpu_render::addTrace(graph, scene, gpu_render::Precision::Half, *host.trace, traced);
@@ -125,6 +127,7 @@ void declareTracedInputs(HostGraph& host, fg::Extent extent, const HostView& vie
     host.specular.emplace().texture = inputs.lighting;
     host.roughness.emplace().texture = inputs.roughness;
     host.specularAlbedo.emplace().texture = traced.specularAlbedo;
+    host.specularMotion.emplace().texture = traced.specularMotion;
   }
   const fg::BufferDesc row{std::uint64_t{extent.height} * sizeof(std::uint32_t)};
   host.rays = addRayCount(graph, traced.indirect, graph.import("rays", row, fg::vk::kOverwritable));
@@ -156,6 +159,7 @@ fg::Texture addLit(HostGraph& host, Denoiser& method, DenoiserInputs inputs, con
     inputs.lighting = host.specular->texture;
     inputs.specularAlbedo = host.specularAlbedo->texture;
     inputs.roughness = host.roughness->texture;
+    inputs.specularMotion = host.specularMotion->texture;
     inputs.conventions.specular = true;
     const fg::Texture output = graph.texture(specular + "denoised", graph.textureDesc(denoised));
     shading.specular = method.add(StageGraph(graph, nothing, {.prefix = specular}), inputs, output);

@@ -58,8 +58,9 @@ struct HostGraph {
   UploadedPicture emission;
   /// Light of the specular lobe, divided by `specularAlbedo`; alpha: see `DenoiserInputs::specularAlbedo`.
   std::optional<UploadedPicture> specular;
-  std::optional<UploadedPicture> specularAlbedo;  ///< It and `roughness` are absent without `specular`.
+  std::optional<UploadedPicture> specularAlbedo;  ///< It and the next two are absent without `specular`.
   std::optional<UploadedPicture> roughness;
+  std::optional<UploadedPicture> specularMotion;  ///< See `DenoiserInputs::specularMotion`.
   std::optional<UploadedPicture> referenceIndirect;
   std::optional<UploadedPicture> referenceDirect;
   std::optional<UploadedPicture> referenceSpecular;

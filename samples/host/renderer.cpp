@@ -89,14 +89,15 @@ void uploadFrame(fg::vk::Executor& executor, const HostGraph& graph, const HostF
   upload(graph.depth, inputs.frame.depth.values());
   upload(graph.normal, std::span(inputs.normal));
   upload(graph.motion, std::span(inputs.motion));
-  upload(graph.albedo, std::span(inputs.albedo));
+  upload(graph.albedo, std::span(inputs.lobe.albedo));
   upload(graph.objectId, std::span(inputs.objectId));
   upload(graph.direct, std::span(frame.direct));
   upload(graph.emission, std::span(frame.emission));
   if (graph.specular) {
     upload(*graph.specular, std::span(frame.specular.lighting));
-    upload(*graph.specularAlbedo, std::span(frame.specular.albedo));
-    upload(*graph.roughness, std::span(frame.specular.roughness));
+    upload(*graph.specularAlbedo, std::span(frame.specular.lobe.albedo));
+    upload(*graph.roughness, std::span(frame.specular.lobe.roughness));
+    upload(*graph.specularMotion, std::span(frame.specular.lobe.motion));
   }
   if (graph.referenceIndirect) {
     upload(*graph.referenceIndirect, std::span(frame.referenceIndirect));

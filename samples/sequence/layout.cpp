@@ -321,6 +321,10 @@ std::string RecognizedLayout::plane(Light light) const {
   return plane(planeOf(*layout, roleOf(light)).name);
 }
 
+bool RecognizedLayout::hasSpecular(Role role) const {
+  return std::ranges::find(specular, role, &Plane::role) != specular.end();
+}
+
 std::string RecognizedLayout::channel(std::string_view plane, char component) const {
   const std::string name = this->plane(plane) + "." + component;
   if (map == nullptr) return name;
@@ -381,11 +385,9 @@ RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const Chann
 }
 
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
-  const auto holds = [&](Role role) {
-    return std::ranges::find(layout.specular, role, &Plane::role) != layout.specular.end();
-  };
   if (wanted.specular == SpecularWish::Denoised &&
-      !(holds(Role::Specular) && holds(Role::SpecularDistance) && holds(Role::Roughness))) {
+      !(layout.hasSpecular(Role::Specular) && layout.hasSpecular(Role::SpecularDistance) &&
+        layout.hasSpecular(Role::Roughness))) {
     throw InputError(
         file.path().string() +
         ": no specular light with distances and roughness (Specular.R, SpecularDistance.Z, Roughness.Y and "

@@ -112,6 +112,8 @@ struct RecognizedLayout {
   [[nodiscard]] std::string channel(std::string_view plane, char component) const;
   /// Full name of the plane that holds a light.
   [[nodiscard]] std::string plane(Light light) const;
+  /// Whether `specular` has a plane of this role.
+  [[nodiscard]] bool hasSpecular(Role role) const;
 };
 
 /// Recognise the layout of a file by its channel names.

@@ -6,6 +6,7 @@
 // distance of what is reflected as alpha (0: there is no sample), `roughness`, the usampler2D `previousReflector`, and
 // `shadingNormal` or what HOST_SURFACES says. Work groups have 8 x 8 threads, all of which call fillTile, then barrier.
 // HOST_SURFACES: surfaces come from the host's G-buffer (host_surface.glsl, with its needs) in place of guides.
+// Takes constant_id 8. Without kSpecularMotion, `specularMotion` is not read: what is reflected counts as still.
 // DISTANCES: the reflector of every pixel holds the mean distance of what is reflected, which else only mirrors have.
 #ifndef WALR_REFLECTION_MOTION_GLSL
 #define WALR_REFLECTION_MOTION_GLSL
@@ -16,6 +17,9 @@
 #ifdef HOST_SURFACES
 #include "guides/host_surface.glsl"
 #endif
+
+layout(constant_id = 8) const bool kSpecularMotion = false;
+uniform texture2D specularMotion;  // World space, scene units: where what is reflected was, minus where it is.
 
 #ifdef DISTANCES
 const bool kDistances = true;
@@ -102,10 +106,13 @@ struct ReflectedSamples {
   float nearest;   // The largest. 0 without samples: what is reflected counts as far away.
   float farthest;  // The smallest, if there are samples.
   float nearness;  // The mean; below 0 without samples.
+  ivec2 pixelOfNearest;
 };
+const ReflectedSamples kNoReflectedSamples = ReflectedSamples(0.0, 0.0, -1.0, ivec2(0));
 
 ReflectedSamples samplesAround(ivec2 p, Reflector own) {
   float nearest = 0.0, farthest = kLargestHalf, sum = 0.0, count = 0.0;
+  ivec2 offsetOfNearest = ivec2(0);
   vec3 position;
   for (int i = 0; i < 9; ++i) {
     const ivec2 offset = ivec2(i % 3, i / 3) - 1;
@@ -113,12 +120,13 @@ ReflectedSamples samplesAround(ivec2 p, Reflector own) {
     const float distance = tileNormals[inTile(offset)].w;
     if (!(distance > 0.0)) continue;
     const float nearness = nearnessOf(distance, -own.position.z);
+    if (nearness > nearest) offsetOfNearest = offset;
     nearest = max(nearest, nearness);
     farthest = min(farthest, nearness);
     sum += nearness;
     count += 1.0;
   }
-  return ReflectedSamples(nearest, farthest, count > 0.0 ? sum / count : -1.0);
+  return ReflectedSamples(nearest, farthest, count > 0.0 ? sum / count : -1.0, p + offsetOfNearest);
 }
 
 // What a pixel of the previous frame must show to be history.
@@ -244,6 +252,14 @@ vec2 newtonStep(Candidate c, vec3 object) {
   return step * min(1.0, kLongestNewtonStep * inversesqrt(max(dot(step, step), 1e-20))) * frame.pixelFromPreviousPixel;
 }
 
+// Where the point that is reflected was in the previous frame, minus where it is: in view space of this frame. Values
+// that are not finite are no statement.
+vec3 motionOfReflected(ReflectedSamples samples) {
+  if (!kSpecularMotion || samples.nearest == 0.0) return vec3(0.0);
+  const vec3 moved = texelFetch(specularMotion, samples.pixelOfNearest, 0).xyz;
+  return isFinite(moved) ? mat3(frame.viewFromWorld) * moved : vec3(0.0);
+}
+
 // The place of a pixel's reflected light in the previous frame.
 struct ReflectionMotion {
   vec2 motion;    // As kept taps hold it.
@@ -261,18 +277,20 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
                                       mat3(frame.previousViewFromView) * own.normal, own.roughness);
   Sought sought = Sought(surface, r.valid, kAnyInverses);
   ReflectionMotion result =
-      ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, ReflectedSamples(0.0, 0.0, -1.0));
+      ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, kNoReflectedSamples);
   if (kDistances || own.roughness < constants.surfaceFrom) result.samples = samplesAround(p, own);
   if (own.roughness < constants.surfaceFrom) {
     sought.inverses = soughtInverses(own, result.samples);
     const float distance = -own.position.z / max(result.samples.nearest, 1.0 / kFarthestObject);
     const vec3 seen = normalize(own.position);
     const vec3 object = own.position + distance * reflect(seen, own.normal);
-    const vec3 objectBefore = previousPosition(frame.previousViewFromView, object);
+    const vec3 moved = motionOfReflected(result.samples);
+    const vec3 objectBefore = previousPosition(frame.previousViewFromView, object + moved);
     Candidate best = candidateAt(ofSurface, sought, objectBefore);
     if (own.roughness <= kSharpUpTo) {
-      // Objects that move carry their images along.
-      const vec2 offset = pixelBefore(own.position + distance * seen) - pixelBefore(own.position);
+      // Objects that move carry their images along, and so do mirrors.
+      const vec3 image = own.position + distance * seen + reflect(moved, own.normal);
+      const vec2 offset = pixelBefore(image) - pixelBefore(own.position);
       best = nearer(best, candidateAt(ofSurface + offset, sought, objectBefore));
     }
     if (best.before.whole)

@@ -35,6 +35,7 @@ std::vector<std::byte> bytesOf(const auto& texels) {
 HostFrame specularFrame(HostFrame frame) {
   frame.conventions.specular = true;
   frame.lightAlpha = frame.roughness = Image<double>(frame.size());
+  frame.specularMotion = Image<glm::dvec3>(frame.size(), {0.25, 0.0, -0.125});
   reference::forEachPixel(frame.size(), [&](glm::ivec2 p) {
     frame.lightAlpha[p] = (p.x + p.y) % 5 == 0 ? 0.0 : 0.5 + 0.25 * (p.x % 4);
     frame.roughness[p] = double(p.x * 255 / frame.size().x) / 255.0;
@@ -80,7 +81,7 @@ TEST_P(CApiMethod, GivesThePixelsOfOurOwnExecutorThroughResetAndResize) {
 TEST_P(CApiMethod, GivesThePixelsOfOurOwnExecutorOnSpecularLight) {
   const auto method = makeDenoiser(GetParam());
   HostedRun::Options options;
-  options.specular = true;
+  options.specular = options.specularMotion = true;
   std::unique_ptr<HostedRun> hosted;
   try {
     hosted = std::make_unique<HostedRun>(device(), GetParam().c_str(), kSize, options);
@@ -91,7 +92,7 @@ TEST_P(CApiMethod, GivesThePixelsOfOurOwnExecutorOnSpecularLight) {
     EXPECT_THROW(DenoiserRun(device(), *method, kSize, {.specular = true}), std::invalid_argument);
     return;
   }
-  DenoiserRun own(device(), *method, kSize, {.specular = true});
+  DenoiserRun own(device(), *method, kSize, {.specular = true}, true);
   for (std::uint32_t i = 0; i < 4; ++i) {
     SCOPED_TRACE("frame " + std::to_string(i));
     const FrameDescription camera = walkingCamera(i, kSize);

@@ -48,7 +48,8 @@ Inputs inputsOf(const WalrDenoiserInfo& info, std::uint32_t number, bool motionH
   if (!motionHasDepth) inputs["motion"] = motionWithoutDepth(inputs["motion"], info.motion_format);
   if (info.confidence_format != VK_FORMAT_UNDEFINED) inputs["confidence"] = texels("confidence", size, number);
   if (hasLight(info, WALR_LIGHT_SPECULAR)) {
-    for (const char* name : {"specular_albedo", "roughness"}) inputs[name] = texels(name, size, number);
+    for (const char* name : {"specular_albedo", "roughness", "specular_motion"})
+      inputs[name] = texels(name, size, number);
   }
   if (info.light_count == 2) inputs["second_lighting"] = texels("lighting", size, number + 100);
   return inputs;

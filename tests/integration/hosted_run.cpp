@@ -11,15 +11,16 @@
 namespace walr::test {
 namespace {
 
-constexpr std::array<const char*, 9> kImages{"lighting",  "depth",      "normal",    "motion",  "albedo",
-                                             "object_id", "confidence", "roughness", "denoised"};
+constexpr std::array kImages{"lighting",  "depth",      "normal",    "motion",          "albedo",
+                             "object_id", "confidence", "roughness", "specular_motion", "denoised"};
 constexpr std::size_t kAlbedo = 4;
 constexpr std::size_t kFirstGuide = 1;
 constexpr std::size_t kLastGuide = 4;
 constexpr std::size_t kObjectIds = 5;
 constexpr std::size_t kConfidence = 6;
 constexpr std::size_t kRoughness = 7;
-constexpr std::size_t kOutput = 8;
+constexpr std::size_t kSpecularMotion = 8;
+constexpr std::size_t kOutput = 9;
 
 WalrImageState stateOf(const fg::ExternalState& state) {
   return {.stage = state.stage, .access = state.access, .layout = state.layout, .reserved = 0};
@@ -101,6 +102,7 @@ HostedRun::HostedRun(const fg::test::TestDevice& device, const char* method, glm
       confidence_(options.confidenceFormat != VK_FORMAT_UNDEFINED),
       hasHistoryLength_(options.historyLength),
       specular_(options.specular),
+      specularMotion_(options.specularMotion),
       guidesOf_(options.guidesOf),
       offset_(options.offset),
       margin_(options.margin),
@@ -125,6 +127,7 @@ HostedRun::HostedRun(const fg::test::TestDevice& device, const char* method, glm
   if (objectIds_) info.object_id_format = VK_FORMAT_R32_UINT;
   info.confidence_format = options.confidenceFormat;
   info.history_length = options.historyLength ? VK_TRUE : VK_FALSE;
+  if (specularMotion_) info.specular_motion_format = VK_FORMAT_R16G16B16A16_SFLOAT;
   info.light_kind = specular_ ? WALR_LIGHT_SPECULAR : WALR_LIGHT_DIFFUSE;
   info.counters = options.counters ? VK_TRUE : VK_FALSE;
   info.lint = options.lint ? VK_TRUE : VK_FALSE;
@@ -192,7 +195,7 @@ void HostedRun::forget(std::optional<FurtherOutput>& output) {
 
 bool HostedRun::isGiven(std::size_t index) const {
   return (index != kObjectIds || objectIds_) && (index != kConfidence || confidence_) &&
-         (index != kRoughness || specular_);
+         (index != kRoughness || specular_) && (index != kSpecularMotion || specularMotion_);
 }
 
 bool HostedRun::isBorrowed(std::size_t index) const {
@@ -246,6 +249,7 @@ void HostedRun::fill(const std::string& image, std::vector<std::byte> texels) {
 void HostedRun::fill(const reference::HostFrame& frame) {
   fill("lighting", texelBytes(specular_ ? encodeLighting(frame) : encodeHalves(frame.lighting)));
   if (specular_) fill("roughness", texelBytes(encodeRoughness(frame)));
+  if (specularMotion_) fill("specular_motion", texelBytes(encodeHalves(frame.specularMotion)));
   fill("depth", texelBytes(encodeFloats(frame.depth)));
   fill("normal", texelBytes(encodeHalves(frame.normal)));
   fill("motion", texelBytes(encodeHalves(frame.motion)));
@@ -317,6 +321,7 @@ void HostedRun::record(const fg::vk::Frame& recorded, const FrameDescription& ca
   frame.motion = &images[3];
   (specular_ ? frame.specular_albedo : frame.albedo) = &images[kAlbedo];
   frame.roughness = specular_ ? &images[kRoughness] : nullptr;
+  frame.specular_motion = specularMotion_ ? &images[kSpecularMotion] : nullptr;
   frame.object_id = objectIds_ ? &images[kObjectIds] : nullptr;
   frame.confidence = confidence_ ? &images[kConfidence] : nullptr;
   frame.denoised = &images[kOutput];

@@ -37,6 +37,7 @@ class HostedRun {
     bool objectIds = false;                           ///< Give an image "object_id".
     VkFormat confidenceFormat = VK_FORMAT_UNDEFINED;  ///< Give an image "confidence".
     bool historyLength = false;
+    bool specularMotion = false;  ///< Give an image "specular_motion", with `HostFrame::specularMotion`.
     bool specular = false;  ///< The light is specular: "albedo" is that of its lobe, and there is an image "roughness".
     std::uint32_t framesInFlight = 2;
     std::uint32_t hostSlots = 0;  ///< Frames that the host itself has in flight; 0 means `framesInFlight`.
@@ -118,13 +119,14 @@ class HostedRun {
   bool confidence_;
   bool hasHistoryLength_;
   bool specular_;
+  bool specularMotion_;
   const HostedRun* guidesOf_;
   glm::ivec2 offset_;
   glm::ivec2 margin_;
   WalrDenoiser denoiser_ = nullptr;
   std::vector<WalrImageRequirements> needs_;
   std::vector<std::unique_ptr<fg::vk::StagedImage>> images_;  ///< Null for images that this does not own.
-  std::array<std::vector<std::byte>, 8> texels_;
+  std::array<std::vector<std::byte>, 9> texels_;
   std::optional<FurtherOutput> view_;
   std::optional<FurtherOutput> historyLength_;
   std::uint32_t lastSlot_ = 0;

@@ -215,9 +215,11 @@ static void test_specular_light(const WalrDevice* device) {
           SECOND(info.light_count = 1));
   REFUSED("no light is specular: set light_kind or second_light_kind", info.roughness_format = VK_FORMAT_R8_UNORM);
   REFUSED("no light is specular", info.specular_albedo_format = VK_FORMAT_R16G16B16A16_SFLOAT);
+  REFUSED("no light is specular", info.specular_motion_format = VK_FORMAT_R16G16B16A16_SFLOAT);
   REFUSED("method 'bmfr' takes diffuse light only; methods that take specular light: ", SPECULAR(info.method = "bmfr"));
   REFUSED("method 'bmfr' takes diffuse light only", SECOND(info.method = "bmfr"));
   REFUSED("'roughness' cannot be of format R32_UINT", SPECULAR(info.roughness_format = VK_FORMAT_R32_UINT));
+  REFUSED("'specular_motion' cannot be of", SPECULAR(info.specular_motion_format = VK_FORMAT_R16G16_SFLOAT));
   REFUSED("'specular_albedo' cannot be of", SPECULAR(info.specular_albedo_format = VK_FORMAT_R16G16_SFLOAT));
   REFUSED("4 channels", SPECULAR(info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32));
   REFUSED("4 channels", SECOND(info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32));

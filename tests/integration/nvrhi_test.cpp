@@ -117,6 +117,7 @@ class NvrhiDenoised : public HostedCall {
     given.albedo = textures_.at("albedo");
     if (textures_.contains("specular_albedo")) given.specularAlbedo = textures_.at("specular_albedo");
     if (textures_.contains("roughness")) given.roughness = textures_.at("roughness");
+    if (textures_.contains("specular_motion")) given.specularMotion = textures_.at("specular_motion");
     given.denoised = textures_.at("denoised");
     if (textures_.contains("confidence")) given.confidence = textures_.at("confidence");
     if (textures_.contains("history_length")) given.historyLength = textures_.at("history_length");

@@ -51,7 +51,8 @@ inline const WalrImage*& imageOf(WalrFrame& frame, std::string_view name) {
       {"second_expected_error", &WalrFrame::second_expected_error},
       {"expected_error", &WalrFrame::expected_error},
       {"specular_albedo", &WalrFrame::specular_albedo},
-      {"roughness", &WalrFrame::roughness}};
+      {"roughness", &WalrFrame::roughness},
+      {"specular_motion", &WalrFrame::specular_motion}};
   const auto* found = std::ranges::find(kMembers, name, [](const auto& member) { return member.first; });
   if (found == std::end(kMembers)) throw std::out_of_range(std::string(name));
   return frame.*found->second;
@@ -96,7 +97,7 @@ inline std::vector<NeededImage> neededImages(const WalrApi& api, WalrDenoiser de
   } else if (hasLight(info, WALR_LIGHT_SPECULAR)) {
     names.emplace_back("specular_albedo");
   }
-  if (hasLight(info, WALR_LIGHT_SPECULAR)) names.emplace_back("roughness");
+  if (hasLight(info, WALR_LIGHT_SPECULAR)) names.insert(names.end(), {"roughness", "specular_motion"});
   if (info.confidence_format != VK_FORMAT_UNDEFINED) names.emplace_back("confidence");
   if (info.history_length == VK_TRUE) names.emplace_back("history_length");
   if (info.light_direction == VK_TRUE) names.emplace_back("light_direction");
@@ -202,6 +203,7 @@ class PluginTest : public testing::Test {
     if (!hasLight(info, WALR_LIGHT_SPECULAR)) return info;
     info.specular_albedo_format = VK_FORMAT_R32G32B32A32_SFLOAT;
     info.roughness_format = VK_FORMAT_R32_SFLOAT;
+    info.specular_motion_format = VK_FORMAT_R32G32B32A32_SFLOAT;
     return info;
   }
   [[nodiscard]] WalrPasses makePasses(const char* method, Size size) const { return makePasses(info(method, size)); }
@@ -276,6 +278,7 @@ inline std::vector<float> texels(const std::string& name, Size size, std::uint32
       // A point at view depth d moves by focal * step / d times half the image's width.
       if (name == "motion") texel[0] = 1.5F * kStep / depth * 0.5F * float(size.width);
       if (name == "albedo") texel[0] = texel[1] = texel[2] = v > 0.9F ? 0.0F : 0.5F;
+      if (name == "specular_motion") texel[1] = 0.25F * u;
       if (name == "specular_albedo") texel[0] = texel[1] = texel[2] = v < -0.9F ? 0.0F : 0.04F;
       if (name == "lighting") {
         texel[3] = (x + y) % 7 == 0 ? 0.0F : 2.0F + u;

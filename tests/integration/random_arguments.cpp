@@ -91,6 +91,8 @@ void RandomInfo::chooseKinds(Dice& dice, Expectation& expected) {
   if (!dice.oneIn(4)) return;
   info.roughness_format = dice.of({VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_UINT});
   if (!specular || info.roughness_format == VK_FORMAT_R32_UINT) expected.fails();
+  info.specular_motion_format = dice.of({VK_FORMAT_UNDEFINED, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16_SFLOAT});
+  if (info.specular_motion_format == VK_FORMAT_R16G16_SFLOAT) expected.fails();
 }
 
 /// After the method: stages and methods without guides have one light.

@@ -173,7 +173,7 @@ void RandomCalls::requirements() {
   const char* const port =
       dice_.of({"lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "history_length",
                 "light_direction", "expected_error", "second_lighting", "second_denoised", "roughness", "denoised",
-                "view", "magic", "", static_cast<const char*>(nullptr)});
+                "specular_motion", "view", "magic", "", static_cast<const char*>(nullptr)});
   if (port == nullptr || *port == '\0' || std::strcmp(port, "magic") == 0) expected.fails();
   if (picked.model != nullptr && picked.model->changed) expected.mayFail();
   if (dice_.oneIn(2)) {

@@ -23,6 +23,7 @@ constexpr std::array kPorts = {Port{"lighting", &WalrFrame::lighting},
                                Port{"second_confidence", &WalrFrame::second_confidence},
                                Port{"specular_albedo", &WalrFrame::specular_albedo},
                                Port{"roughness", &WalrFrame::roughness},
+                               Port{"specular_motion", &WalrFrame::specular_motion},
                                Port{"denoised", &WalrFrame::denoised},
                                Port{"second_denoised", &WalrFrame::second_denoised},
                                Port{"view", &WalrFrame::view},
@@ -32,7 +33,7 @@ constexpr std::array kPorts = {Port{"lighting", &WalrFrame::lighting},
                                Port{"second_light_direction", &WalrFrame::second_light_direction},
                                Port{"expected_error", &WalrFrame::expected_error},
                                Port{"second_expected_error", &WalrFrame::second_expected_error}};
-constexpr std::size_t kLastHolding = 12;  ///< Index of the last image that may be larger than the rectangle.
+constexpr std::size_t kLastHolding = 13;  ///< Index of the last image that may be larger than the rectangle.
 
 /// Makes one of the image's members wrong.
 void spoil(Dice& dice, WalrImage& image) {

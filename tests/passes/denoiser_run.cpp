@@ -7,8 +7,10 @@
 namespace walr::test {
 
 DenoiserRun::DenoiserRun(const fg::test::TestDevice& device, Denoiser& denoiser, glm::ivec2 size,
-                         const InputConventions& conventions)
-    : size_(size), inputs_(importInputs(graph_, size, conventions)), output_(importOutput(graph_, size)) {
+                         const InputConventions& conventions, bool specularMotion)
+    : size_(size),
+      inputs_(importInputs(graph_, size, conventions, specularMotion)),
+      output_(importOutput(graph_, size)) {
   graph_.exported(denoiser.add(graph_, inputs_, output_), fg::vk::kReadable);
   run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
 }

@@ -10,7 +10,7 @@ namespace walr::test {
 class DenoiserRun {
  public:
   DenoiserRun(const fg::test::TestDevice& device, Denoiser& denoiser, glm::ivec2 size,
-              const InputConventions& conventions = {});
+              const InputConventions& conventions = {}, bool specularMotion = false);
 
   /// Forget all histories.
   void reset() { run_->executor().resetAllHistory(); }

@@ -56,7 +56,8 @@ void uploadDepthAndGeometry(fg::test::GraphRun& run, fg::Texture depth, fg::Text
 
 }  // namespace
 
-DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConventions& conventions) {
+DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConventions& conventions,
+                            bool specularMotion) {
   DenoiserInputs inputs;
   const fg::Extent lightExtent = conventions.light.lightingExtent(extentOf(size));
   inputs.lighting = importHalves(graph, "lighting", glm::ivec2(lightExtent.width, lightExtent.height));
@@ -66,6 +67,7 @@ DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConven
   inputs.albedo = importHalves(graph, "albedo", size);
   inputs.specularAlbedo = inputs.albedo;
   if (conventions.specular) inputs.roughness = import(graph, "roughness", VK_FORMAT_R8_UNORM, size);
+  if (specularMotion) inputs.specularMotion = importHalves(graph, "specular_motion", size);
   inputs.frame = graph.upload("frame constants", sizeof(FrameConstants));
   inputs.conventions = conventions;
   return inputs;
@@ -82,6 +84,7 @@ void upload(fg::test::GraphRun& run, const DenoiserInputs& inputs, const referen
   run.fill(inputs.albedo, encodeHalves(frame.albedo));
   run.fill(inputs.depth, encodeFloats(frame.depth));
   if (inputs.roughness.valid()) run.fill(inputs.roughness, encodeRoughness(frame));
+  if (inputs.specularMotion.valid()) run.fill(inputs.specularMotion, encodeHalves(frame.specularMotion));
   if (inputs.objectId.valid()) run.fill(inputs.objectId, frame.objectId.pixels());
   run.executor().upload(inputs.frame, frame.constants);
 }

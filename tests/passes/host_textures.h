@@ -11,7 +11,9 @@
 namespace walr::test {
 
 /// Import the inputs that every host provides.
-DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConventions& conventions = {});
+/// @param specularMotion whether also this optional one
+DenoiserInputs importInputs(fg::Graph& graph, glm::ivec2 size, const InputConventions& conventions = {},
+                            bool specularMotion = false);
 /// Import object numbers, an optional input.
 fg::Texture importObjectIds(fg::Graph& graph, glm::ivec2 size);
 /// Upload a host's frame before the next frame runs.

@@ -15,14 +15,14 @@
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "passes/guides/shared_guides.h"
 #include "passes/methods/denoiser.h"
 #include "passes/temporal/reflection_motion.h"
 #include "tests/error_text.h"
 #include "tests/passes/comparison.h"
 #include "tests/passes/denoiser_run.h"
-#include "tests/passes/host_textures.h"
+#include "tests/passes/mirror_optics.h"
 #include "tests/passes/reference/reflection.h"
+#include "tests/passes/reflection_run.h"
 #include "tests/passes/synthetic_scene.h"
 #include "tests/vulkan/gpu_fixture.h"
 
@@ -33,186 +33,9 @@ using reference::Guide;
 using reference::HostFrame;
 using reference::Image;
 
-constexpr glm::ivec2 kSize(64, 48);
-/// Pixels per unit of slope: those of a picture of 1080 lines that is 0.8 radians high.
-const double kPixels = 540.0 / std::tan(0.4);
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A spherical mirror that meets (0, 0, -distance) with a normal that is `tilt` away from the z axis.
-struct Mirror {
-  double radius = 0.0;  ///< Above 0: convex; below 0: concave; infinite: flat.
-  double tilt = 0.0;    ///< Radians.
-  double distance = 2.0;
-  glm::dvec3 moved{0.0};   ///< Since the previous frame.
-  glm::dvec3 offset{0.0};  ///< Of the mirror from that place.
-
-  /// The mirror of the previous frame.
-  [[nodiscard]] Mirror before() const { return {radius, tilt, distance, {}, offset - moved}; }
-  [[nodiscard]] glm::dvec3 point() const { return glm::dvec3(0.0, 0.0, -distance) + offset; }
-  [[nodiscard]] glm::dvec3 axis() const { return {0.8 * std::sin(tilt), 0.6 * std::sin(tilt), std::cos(tilt)}; }
-  [[nodiscard]] bool flat() const { return std::isinf(radius); }
-  [[nodiscard]] glm::dvec3 centre() const { return point() - radius * axis(); }
-  [[nodiscard]] glm::dvec3 normalAt(glm::dvec3 q) const { return flat() ? axis() : (q - centre()) / radius; }
-
-  /// Distance along a ray; of two, that of the hit nearer to `point`.
-  [[nodiscard]] std::optional<double> hit(glm::dvec3 origin, glm::dvec3 direction) const {
-    if (flat()) return glm::dot(point() - origin, axis()) / glm::dot(direction, axis());
-    const glm::dvec3 from = origin - centre();
-    const double a = glm::dot(direction, direction);
-    const double b = glm::dot(from, direction);
-    const double root = b * b - a * (glm::dot(from, from) - radius * radius);
-    if (root < 0.0) return std::nullopt;
-    const double near = (-b - std::sqrt(root)) / a;
-    const double far = (-b + std::sqrt(root)) / a;
-    const auto away = [&](double t) { return glm::distance(origin + t * direction, point()); };
-    const double t = away(near) < away(far) ? near : far;
-    return t > 0.0 ? std::optional(t) : std::nullopt;
-  }
-  [[nodiscard]] Scene scene() const {
-    return [*this](glm::dvec3 origin, glm::dvec3 direction) -> std::optional<SceneHit> {
-      const auto t = hit(origin, direction);
-      if (!t) return std::nullopt;
-      return SceneHit{.distance = *t, .shadingNormal = normalAt(origin + *t * direction), .moved = moved};
-    };
-  }
-
-  /// The point that reflects `object` into `eye`, near `start`: there, by Fermat's principle, the length of the way has
-  /// no slope along the mirror.
-  [[nodiscard]] std::optional<glm::dvec3> reflecting(glm::dvec3 eye, glm::dvec3 object, glm::dvec3 start) const {
-    glm::dvec3 q = start;
-    for (int i = 0; i < 50; ++i) {
-      const glm::dvec3 n = normalAt(q);
-      const glm::dvec3 t = glm::normalize(glm::cross(n, glm::dvec3(0.3, 0.5, 0.8)));
-      const glm::dvec3 u = glm::cross(n, t);
-      const auto at = [&](glm::dvec2 s) {
-        const glm::dvec3 moved = q + s.x * t + s.y * u;
-        return flat() ? moved : centre() + radius * glm::normalize((moved - centre()) / radius);
-      };
-      const auto slope = [&](glm::dvec2 s) {
-        const glm::dvec3 p = at(s);
-        const glm::dvec3 pull = glm::normalize(p - eye) + glm::normalize(p - object);
-        const glm::dvec3 along = pull - glm::dot(pull, normalAt(p)) * normalAt(p);
-        return glm::dvec2(glm::dot(along, t), glm::dot(along, u));
-      };
-      constexpr double kStep = 1e-6;
-      const glm::dvec2 here = slope({});
-      const glm::dmat2 jacobian((slope({kStep, 0.0}) - slope({-kStep, 0.0})) / (2.0 * kStep),
-                                (slope({0.0, kStep}) - slope({0.0, -kStep})) / (2.0 * kStep));
-      glm::dvec2 step = -glm::inverse(jacobian) * here;
-      step *= std::min(1.0, 0.05 / std::max(glm::length(step), 1e-12));
-      q = at(step);
-      if (glm::length(step) < 1e-10) return q;
-    }
-    return std::nullopt;
-  }
-};
-
-FrameDescription zoomed(FrameDescription camera) {
-  const glm::dvec2 scale = 2.0 * kPixels / glm::dvec2(kSize);
-  for (glm::mat4* projection : {&camera.projection, &camera.previousProjection}) {
-    (*projection)[0][0] = static_cast<float>(scale.x);
-    (*projection)[1][1] = static_cast<float>(scale.y);
-  }
-  return camera;
-}
-
-/// A frame of specular light. What is reflected lies at one distance from all pixels.
-HostFrame specularFrame(const Scene& scene, const FrameDescription& camera, double distance, double roughness) {
-  const HostFrame frame = renderFrame(scene, camera, kSize, smoothLight, Noise::None);
-  return asSpecular(frame, distance, std::round(255.0 * roughness) / 255.0);
-}
-
-/// A method, or the stage alone on given guides, on a device frame by frame, with the stage's views.
-class ReflectionRun {
- public:
-  /// @param alone  whether no other light could share the guides, so that passes may be joined
-  /// @param history whether there is a third view, that of the history of accumulated light
-  ReflectionRun(const fg::test::TestDevice& device, Denoiser& method, bool alone = true, bool history = false)
-      : inputs_(importInputs(graph_, kSize, {.specular = true})), output_(importOutput(graph_, kSize)) {
-    wantViews(history);
-    SharedGuides shared;
-    const SharedLight light{.guides = alone ? nullptr : &shared};
-    graph_.exported(method.add({graph_, inspection_, light}, inputs_, output_), fg::vk::kReadable);
-    start(device);
-  }
-  /// Of the stage. The output is the confidence.
-  ReflectionRun(const fg::test::TestDevice& device, const SceneDescription& scene)
-      : inputs_(importInputs(graph_, kSize, {.specular = true})), guides_(importGuides(graph_, kSize)) {
-    inputs_.scene = scene;
-    wantViews(false);
-    output_ =
-        copyOut(graph_, "confidence", addReflectionMotion({graph_, inspection_}, inputs_, guides_, {}).confidence);
-    start(device);
-  }
-  void frame(const HostFrame& frame) {
-    upload(*run_, inputs_, frame);
-    run_->frame();
-  }
-  void frame(const HostFrame& frame, const Image<Guide>& guides, const Image<Guide>& previous) {
-    upload(*run_, guides_, guides);
-    uploadPrevious(*run_, guides_, previous);
-    this->frame(frame);
-  }
-  void reset() { run_->executor().resetAllHistory(); }
-  [[nodiscard]] Image<glm::dvec3> view(std::size_t index) const {
-    const std::vector<float> texels = run_->texels<float>(inspection_.views()[index].texture);
-    Image<glm::dvec3> image(kSize);
-    for (std::size_t i = 0; i < image.pixels().size(); ++i)
-      image.pixels()[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
-    return image;
-  }
-  [[nodiscard]] Image<glm::dvec4> output() const { return readHalves(*run_, output_, kSize); }
-
- private:
-  void wantViews(bool history) {
-    const fg::Extent extent{static_cast<std::uint32_t>(kSize.x), static_cast<std::uint32_t>(kSize.y)};
-    std::vector<const char*> views{"reflection-motion", "reflection-history"};
-    if (history) views.push_back("history");
-    for (const char* const view : views)
-      inspection_.want(view,
-                       graph_.import(std::string("view of ") + view, {kViewFormat, extent}, fg::vk::kOverwritable));
-  }
-  void start(const fg::test::TestDevice& device) {
-    for (const DebugView& view : inspection_.views()) graph_.exported(view.texture, fg::vk::kReadable);
-    run_ = std::make_unique<fg::test::GraphRun>(device, graph_, fg::vk::ExecutorOptions{.shared = device.pipelines()});
-  }
-
-  fg::Graph graph_;
-  DenoiserInputs inputs_;
-  Guides guides_;
-  fg::Texture output_;
-  Inspection inspection_;
-  std::unique_ptr<fg::test::GraphRun> run_;
-};
+constexpr glm::ivec2 kSize = kMirrorSize;
 
 class ReflectionMotionTest : public fg::test::GpuTest {};
-
-/// Cameras of two frames, a few pixels of motion apart.
-struct Walk {
-  FrameDescription first;
-  FrameDescription second;
-};
-Walk walk(glm::dvec3 step, bool jitter) {
-  Walk cameras{zoomed(cameraAt(-step, -2.0 * step, kSize, 0)), zoomed(cameraAt({}, -step, kSize, 1))};
-  if (jitter) cameras = {jittered(cameras.first, 3), jittered(cameras.second, 4)};
-  return cameras;
-}
-
-/// The exact motion of what a pixel of the second frame reflects.
-std::optional<glm::dvec2> exactMotion(const Mirror& mirror, const HostFrame& frame, glm::dvec3 step, double distance,
-                                      glm::ivec2 p) {
-  const glm::dvec3 ray = reference::rayThrough(frame.constants.rayFromPixel, reference::pixelCentre(p));
-  const auto t = mirror.hit({}, ray);
-  if (!t) return std::nullopt;
-  const glm::dvec3 point = *t * ray;
-  const glm::dvec3 object = point + distance * glm::reflect(glm::normalize(ray), mirror.normalAt(point));
-  const auto q = mirror.before().reflecting(-step, object, point - mirror.moved);
-  if (!q || glm::distance(*q, point) > 0.1) return std::nullopt;
-  const glm::dvec3 seen = *q + step;
-  const glm::dvec4 before(frame.constants.previousRayFromPixel);
-  const glm::dvec2 shown = (glm::dvec2(seen) / -seen.z - glm::dvec2(before.z, before.w)) / glm::dvec2(before);
-  return shown - glm::dvec2(frame.constants.jitterDelta) - reference::pixelCentre(p);
-}
 
 struct OpticsCase {
   const char* name;
@@ -305,7 +128,7 @@ TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
   const Scene worlds[]{sphere(), bumpyWall(0.1), Mirror{0.5, 0.7}.scene(), Mirror{-1.0, 0.3}.scene()};
   for (const bool objectMotion : {false, true}) {
     const SceneDescription description{.objectMotion = objectMotion};
-    ReflectionRun run(device(), description);
+    ReflectionRun run(device(), description, objectMotion);
     for (const Scene& world : worlds) {
       for (const double roughness : {0.0, 0.2, 0.4, 1.0}) {
         const std::size_t number = static_cast<std::size_t>(&world - worlds);
@@ -325,6 +148,13 @@ TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
           const double distance = (p.x < 52 ? 1.0 : 2.0) + 0.5 * (p.x % 2);
           second.lightAlpha[p] = (p.x + p.y) % 3 == 0 ? 0.0 : distance;
         });
+        if (objectMotion) {
+          first.specularMotion = second.specularMotion = Image<glm::dvec3>(kSize);
+          reference::forEachPixel(kSize, [&](glm::ivec2 p) {
+            const glm::dvec3 moved = p.y < 40 ? glm::dvec3(0.125, -0.0625, 0.03125) * double(p.y % 4) : glm::dvec3(NAN);
+            second.specularMotion[p] = moved;
+          });
+        }
         const Image<Guide> before = reference::prepareGuides(first, reference::Storage::Quantised);
         const Image<Guide> guides = reference::prepareGuides(second, reference::Storage::Quantised);
         run.reset();
@@ -433,8 +263,8 @@ TEST_F(ReflectionMotionTest, MirrorsKeepNoLightOfWhatLeft) {
 // Where a light is alone, one pass reads the G-buffer, finds the motion and accumulates.
 TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
   const auto method = makeDenoiser("walr");
-  ReflectionRun joined(device(), *method, true, true);
-  ReflectionRun apart(device(), *method, false, true);
+  ReflectionRun joined(device(), *method, {.history = true});
+  ReflectionRun apart(device(), *method, {.alone = false, .history = true});
   const Scene worlds[]{sphere(), bumpyWall(0.1), Mirror{0.5, 0.7}.scene()};
   for (const Scene& world : worlds) {
     const bool zoom = &world == &worlds[2];

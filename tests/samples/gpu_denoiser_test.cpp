@@ -60,6 +60,31 @@ std::vector<DenoisedFrame> denoiseAll(const GpuDevice& gpu, std::string_view met
   return results;
 }
 
+// Of `SpecularMotion` in the frames, where they have it: history follows what a mirror shows.
+TEST_F(GpuDenoiserTest, HistoryFollowsTheMotionThatFramesTell) {
+  Layout layout = projectLayout();
+  layout.conventions.specular = true;
+  const std::vector<std::string> views{"reflection-motion"};
+  const auto motion = [&](float moved, const OptionalImages& given) {
+    GpuDenoiser denoiser(gpu, *makeDenoiser("walr"), kExtent, layout, {.views = views}, 1, given);
+    DenoisedPicture picture;
+    for (PackedFrame& packed : frames()) {
+      Frame frame = std::move(packed.frame);
+      frame.specular = frame.specularAlbedo = frame.indirect;
+      frame.specularDistance = frame.depth;
+      frame.roughness = Image(kWidth, kHeight, 1);
+      frame.specularMotion = Image(kWidth, kHeight, 3);
+      for (std::size_t i = 0; i < frame.specularMotion.pixelCount(); ++i) frame.specularMotion.pixel(i)[0] = moved;
+      picture = denoiser.run(packFrame(std::move(frame), Light::Specular));
+    }
+    return picture.views.front().image.at(kWidth / 2, kHeight / 2, 0);
+  };
+  EXPECT_EQ(motion(0.0F, {.specularMotion = true}), 0.0F);
+  EXPECT_EQ(motion(0.25F, {}), 0.0F);
+  EXPECT_GT(motion(0.25F, {.specularMotion = true}), 0.25F);
+  EXPECT_LT(motion(-0.25F, {.specularMotion = true}), -0.25F);
+}
+
 TEST_F(GpuDenoiserTest, FramesInFlightDoNotChangeABit) {
   const std::vector<std::string> views{"history", "samples"};
   const InspectionWish wanted{.views = views, .counters = true};

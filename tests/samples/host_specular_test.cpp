@@ -108,7 +108,7 @@ TEST(HostSpecular, LightIsDenoisedByMethodsThatTakeIt) {
   Layout specularLayout = projectLayout();
   specularLayout.conventions.specular = true;
   GpuDenoiser diffuse(gpu, *accumulate, kExtent, projectLayout());
-  GpuDenoiser specular(gpu, *accumulate, kExtent, specularLayout);
+  GpuDenoiser specular(gpu, *accumulate, kExtent, specularLayout, {}, 1, {.specularMotion = true});
   Renderer renderer(gpu, *accumulate, kExtent, {.readComposite = true, .specular = true});
   Tracer tracer(specularTracing());
   for (int number = 0; number < 3; ++number) {

@@ -81,7 +81,7 @@ class LightDenoisersTest : public testing::TestWithParam<Choice> {
 
   [[nodiscard]] std::vector<DenoisedFrame> denoise(std::span<const LightMethod> lights) const {
     const Layout& layout = projectLayout();
-    LightDenoisers denoiser(*gpu, lights, kExtent, layout, {}, 2, true);
+    LightDenoisers denoiser(*gpu, lights, kExtent, layout, {}, 2, {.objectIds = true});
     std::vector<DenoisedFrame> results;
     for (Frame& frame : frames()) {
       if (denoiser.full()) results.push_back(*denoiser.finish());
@@ -146,7 +146,7 @@ TEST(LightDenoisers, AllLightsAreThoseOfDenoisersOfTheirOwn) {
     const auto run = [&](std::initializer_list<Light> lights, const Layout& described) {
       std::vector<LightMethod> methods;
       for (const Light light : lights) methods.push_back(lightMethod({choice.method}, light));
-      LightDenoisers denoiser(gpu, methods, kExtent, described, {}, 1, true);
+      LightDenoisers denoiser(gpu, methods, kExtent, described, {}, 1, {.objectIds = true});
       std::optional<DenoisedFrame> last;
       for (Frame& frame : frames()) {
         frame.light = choice.light;
@@ -183,7 +183,7 @@ TEST(LightDenoisers, LightsMayTestTheirHistoryInOtherWays) {
     return made;
   };
   const auto run = [&](std::vector<LightMethod> lights) {
-    LightDenoisers denoiser(gpu, lights, kExtent, projectLayout(), {}, 1, false);
+    LightDenoisers denoiser(gpu, lights, kExtent, projectLayout(), {}, 1, {});
     std::optional<DenoisedFrame> last;
     for (Frame& frame : frames()) {
       frame.objectId = {};
@@ -215,7 +215,7 @@ TEST(LightDenoisers, LightsWithOtherGuidesAreRefused) {
     lights.push_back({Light::Direct, makeDenoiser("walr")});
     lights[1].method->set(name, value);
     try {
-      const LightDenoisers denoiser(gpu, lights, kExtent, projectLayout(), {}, 1, false);
+      const LightDenoisers denoiser(gpu, lights, kExtent, projectLayout(), {}, 1, {});
       ADD_FAILURE() << name << ": the lights need other guides";
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find("make a denoiser for each light"), std::string::npos) << error.what();

@@ -48,7 +48,7 @@ Result denoised(const GpuDevice& device, const fg::vk::Membership& pipelines, co
   options.motionDepth = source;
   const Sequence sequence(folder, options);
   const auto method = makeDenoiser("walr");
-  GpuDenoiser denoiser(device, *method, sequence.extent(), sequence.denoiserLayout(), {.counters = true}, 1, false,
+  GpuDenoiser denoiser(device, *method, sequence.extent(), sequence.denoiserLayout(), {.counters = true}, 1, {},
                        pipelines);
   Result result;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {

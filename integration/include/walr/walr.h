@@ -337,6 +337,7 @@ typedef struct WalrDenoiserInfo {
   /* Of WalrFrame::specular_albedo and WalrFrame::roughness, for specular light only; like `albedo_format`. */
   VkFormat specular_albedo_format;
   VkFormat roughness_format;
+  VkFormat specular_motion_format; /* Of WalrFrame::specular_motion; VK_FORMAT_UNDEFINED: no such image. */
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -385,7 +386,7 @@ typedef struct WalrImageRequirements {
 /* port: "lighting", "depth", "normal", "motion", "albedo", "object_id", "confidence", "denoised",
  * "view" (see walr_set_view), "history_length", "light_direction" or "expected_error"; with two lights also
  * "second_lighting", "second_confidence", "second_denoised", "second_history_length", "second_light_direction" or
- * "second_expected_error"; with specular light also "specular_albedo" and "roughness".
+ * "second_expected_error"; with specular light also "specular_albedo", "roughness" and "specular_motion".
  * Needs no image and no walr_prepare. */
 WALR_API WalrResult walr_get_image_requirements(WalrDenoiser denoiser, const char* port,
                                                 WalrImageRequirements* requirements);
@@ -500,6 +501,9 @@ typedef struct WalrFrame {
    * walr/specular_albedo.h), and linear roughness as in glTF, 0 to 1. `albedo` is then read by diffuse light only. */
   const WalrImage* specular_albedo;
   const WalrImage* roughness;
+  /* With `specular_motion_format`: where the point that specular light comes from was in the previous frame, minus where
+   * it is; three channels, world space, scene units. Without it, what is reflected counts as still. */
+  const WalrImage* specular_motion;
 } WalrFrame;
 
 /*

@@ -21,7 +21,8 @@ extern "C" {
 
 typedef enum WalrResourceKind {
   /* An image of the host: "lighting", ..., "denoised", and with two lights "second_lighting", "second_denoised", with
-   * specular light "specular_albedo", "roughness". Of a single stage also its other inputs, named like the ports. */
+   * specular light "specular_albedo", "roughness", "specular_motion". Of a single stage also its other inputs, named
+   * like the ports. */
   WALR_RESOURCE_HOST = 0,
   WALR_RESOURCE_TRANSIENT = 1,        /* Lives within the frame. */
   WALR_RESOURCE_HISTORY_PREVIOUS = 2, /* What the last frame wrote into `partner`. Null in the first frame. */

@@ -37,8 +37,6 @@ layout(set = 0, binding = 21, r32ui) uniform writeonly uimage2D outObjectId;
 layout(set = 0, binding = 22, COLOR) uniform writeonly image2D outSpecular;
 // Albedo of the specular lobe; alpha: number of its paths. The alpha of the normal then holds roughness.
 layout(set = 0, binding = 23, COLOR) uniform writeonly image2D outSpecularAlbedo;
-#endif
-#ifdef SPECULAR_MOTION
 // See `render::SpecularPixel::motion`.
 layout(set = 0, binding = 24, COLOR) uniform writeonly image2D outSpecularMotion;
 #endif
@@ -353,9 +351,7 @@ void main() {
   const float shareOfSpecular = 1.0 / float(max(specularPaths, 1u));
   imageStore(outSpecular, p, representable(vec4(specular, inverseDistance) * shareOfSpecular));
   imageStore(outSpecularAlbedo, p, vec4(shownAlbedo, float(specularPaths)));
-#ifdef SPECULAR_MOTION
   imageStore(outSpecularMotion, p, vec4(mat3(imageFromWorld) * specularMotion * shareOfSpecular, 0.0));
-#endif
 #endif
   imageStore(outDirect, p, representable(vec4(direct, float(paths))));
   imageStore(outIndirect, p, representable(vec4(indirect, float(rays))));

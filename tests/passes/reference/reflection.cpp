@@ -43,6 +43,7 @@ struct Mirror {
 struct Distances {
   double nearest = kInfinity;
   double farthest = 0.0;
+  glm::ivec2 pixelOfNearest{0};
 };
 
 /// The stage at one pixel.
@@ -84,6 +85,13 @@ class Search {
     return oneSurface(own, found) ? std::optional(found) : std::nullopt;
   }
   Distances distancesAround(const Mirror& own);
+  /// Where the nearest point of those was, minus where it is, in view space.
+  [[nodiscard]] glm::dvec3 motionOfReflected() const {
+    if (frame_.specularMotion.pixels().empty() || std::isinf(distances_.nearest)) return glm::dvec3(0.0);
+    const glm::dvec3 moved = frame_.specularMotion[distances_.pixelOfNearest];
+    if (!isFinite(moved)) return glm::dvec3(0.0);
+    return glm::dmat3(glm::dmat4(frame_.constants.viewFromWorld)) * moved;
+  }
   /// Whether a pixel of the previous frame shows what a mirror shows now.
   bool showsTheSame(glm::ivec2 q, double roughness);
   /// The mean of what the previous frame shows at a position; `whole`: all four pixels count.
@@ -112,7 +120,9 @@ Distances Search::distancesAround(const Mirror& own) {
       const double d = frame_.lightAlpha[p_ + glm::ivec2(x, y)];
       if (!(d > 0.0)) continue;
       const double known = d < kLargestHalf ? std::max(d, -1e-3 * own.position.z) : kInfinity;
-      found = {std::min(found.nearest, known), std::max(found.farthest, known)};
+      if (known < found.nearest) found.pixelOfNearest = p_ + glm::ivec2(x, y);
+      found.nearest = std::min(found.nearest, known);
+      found.farthest = std::max(found.farthest, known);
     }
   }
   return found;
@@ -179,7 +189,9 @@ Reflected Search::find() {
   const Mirror surface{r.position, turned(own.normal), own.roughness};
   distances_ = distancesAround(own);
   const double distance = std::min(distances_.nearest, kFarthest * -own.position.z);
-  const glm::dvec3 object = before(own.position + distance * glm::reflect(glm::normalize(own.position), own.normal));
+  const glm::dvec3 moved = motionOfReflected();
+  const glm::dvec3 object =
+      before(own.position + distance * glm::reflect(glm::normalize(own.position), own.normal) + moved);
   bool whole = false;
   const auto missAt = [&](glm::dvec2 position) {
     const auto there = shownAt(position, surface, whole);
@@ -198,7 +210,7 @@ Reflected Search::find() {
     newton = whole;
   };
   if (own.roughness <= 0.1) {
-    const glm::dvec3 image = own.position + distance * glm::normalize(own.position);
+    const glm::dvec3 image = own.position + distance * glm::normalize(own.position) + glm::reflect(moved, own.normal);
     consider(surfaceAt + shown(before(image)) - shown(before(own.position)));
   }
   if (newton) {

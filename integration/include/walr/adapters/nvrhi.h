@@ -36,6 +36,7 @@ struct NvrhiTextures {
   nvrhi::ITexture* secondExpectedError = nullptr;
   nvrhi::ITexture* specularAlbedo = nullptr;
   nvrhi::ITexture* roughness = nullptr;
+  nvrhi::ITexture* specularMotion = nullptr;
 };
 
 /// Records a denoiser into NVRHI's command lists. NVRHI still tracks the states of the textures.
@@ -75,7 +76,8 @@ class NvrhiDenoiser {
                               {textures.secondLightDirection, &frame.second_light_direction, true},
                               {textures.secondExpectedError, &frame.second_expected_error, true},
                               {textures.specularAlbedo, &frame.specular_albedo, false},
-                              {textures.roughness, &frame.roughness, false}};
+                              {textures.roughness, &frame.roughness, false},
+                              {textures.specularMotion, &frame.specular_motion, false}};
     WalrImage images[std::size(members)] = {};
     for (std::size_t i = 0; i < std::size(members); ++i) {
       const auto& [texture, image, output] = members[i];
