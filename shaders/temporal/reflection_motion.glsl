@@ -30,6 +30,7 @@ const float kLongestNewtonStep = 8.0;     // Pixels.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
 const float kFarthestObject = 3000.0;     // Over depth; what is farther is reflected from here.
 const float kMirrorUpTo = 0.05;           // Roughness up to which history must have the distance of what is reflected.
+const float kFollowsUpTo = 0.25;          // Roughness up to which things that move carry their images along.
 const float kDistanceTolerance = 1.25;    // Largest ratio of two distances of one thing.
 const float kLeastNearness = 1e-3;        // Depth over distance; what is farther is at one distance.
 const float kNoHistory = 4.0;             // A miss larger than that of any two directions.
@@ -253,9 +254,9 @@ vec2 newtonStep(Candidate c, vec3 object) {
 }
 
 // Where the point that is reflected was in the previous frame, minus where it is: in view space of this frame. Values
-// that are not finite are no statement.
-vec3 motionOfReflected(ReflectedSamples samples) {
-  if (!kSpecularMotion || samples.nearest == 0.0) return vec3(0.0);
+// that are not finite are no statement. What a wide lobe shows does not move as a single sample does.
+vec3 motionOfReflected(Reflector own, ReflectedSamples samples) {
+  if (!kSpecularMotion || samples.nearest == 0.0 || own.roughness > kFollowsUpTo) return vec3(0.0);
   const vec3 moved = texelFetch(specularMotion, samples.pixelOfNearest, 0).xyz;
   return isFinite(moved) ? mat3(frame.viewFromWorld) * moved : vec3(0.0);
 }
@@ -284,7 +285,7 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
     const float distance = -own.position.z / max(result.samples.nearest, 1.0 / kFarthestObject);
     const vec3 seen = normalize(own.position);
     const vec3 object = own.position + distance * reflect(seen, own.normal);
-    const vec3 moved = motionOfReflected(result.samples);
+    const vec3 moved = motionOfReflected(own, result.samples);
     const vec3 objectBefore = previousPosition(frame.previousViewFromView, object + moved);
     Candidate best = candidateAt(ofSurface, sought, objectBefore);
     if (own.roughness <= kSharpUpTo) {

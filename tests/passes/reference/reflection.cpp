@@ -87,7 +87,8 @@ class Search {
   Distances distancesAround(const Mirror& own);
   /// Where the nearest point of those was, minus where it is, in view space.
   [[nodiscard]] glm::dvec3 motionOfReflected() const {
-    if (frame_.specularMotion.pixels().empty() || std::isinf(distances_.nearest)) return glm::dvec3(0.0);
+    const bool given = !frame_.specularMotion.pixels().empty() && frame_.roughness[p_] <= 0.25;
+    if (!given || std::isinf(distances_.nearest)) return glm::dvec3(0.0);
     const glm::dvec3 moved = frame_.specularMotion[distances_.pixelOfNearest];
     if (!isFinite(moved)) return glm::dvec3(0.0);
     return glm::dmat3(glm::dmat4(frame_.constants.viewFromWorld)) * moved;
