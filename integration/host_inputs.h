@@ -46,8 +46,8 @@ void requireInputFormat(const HostInput& input, VkFormat format, std::uint32_t c
 inline void requireInputFormat(const HostInput& input, VkFormat format) {
   requireInputFormat(input, format, input.channels);
 }
-/// The same for the lighting. Its alpha is read where it masks light. Where it is a distance (specular light) or a number
-/// of samples, it may be above 1, and the format must be one of floats.
+/// The same for the lighting. Its alpha is read where it masks light. Where it is a distance (specular light) or a
+/// number of samples, it may be above 1, and the format must be one of floats.
 void requireLightFormat(const HostInput& input, VkFormat format, const LightPattern& pattern, bool specular);
 
 }  // namespace walr

@@ -36,8 +36,8 @@ struct InputConventions {
   }
 };
 
-/// The textures that denoisers take, `albedo` for diffuse light only. `objectId`, `confidence` and `specularMotion` may be left out. All
-/// have the extent of the image, but see `LightPattern` for that of the lighting.
+/// The textures that denoisers take, `albedo` for diffuse light only. `objectId`, `confidence` and `specularMotion` may
+/// be left out. All have the extent of the image, but see `LightPattern` for that of the lighting.
 struct DenoiserInputs {
   fg::Texture lighting;  ///< RGBA16F: demodulated diffuse indirect radiance, linear, 1 sample per texel. Alpha: see
                          ///< `LightPattern::masked`.
@@ -57,11 +57,11 @@ struct DenoiserInputs {
   /// it reflects, scene units, 0 where there is no sample.
   fg::Texture specularAlbedo = {};  ///< RGBA16F: directional albedo of the specular lobe, in the place of `albedo`.
   fg::Texture roughness = {};       ///< R8_UNORM, or another format of floats: linear roughness (glTF).
-  /// RGBA16F: where the point that specular light comes from, at the distance that alpha of the lighting says, was in the
-  /// previous frame, minus where it is; world space, scene units. If not present, or where it is not finite, what is
-  /// reflected counts as still.
+  /// RGBA16F: where the point that specular light comes from (at the distance in the alpha of the lighting) was in the
+  /// previous frame, minus where it is; world space, scene units. If not present, or where it is not finite, that point
+  /// counts as still.
   fg::Texture specularMotion = {};
-  fg::Buffer frame;                 ///< Upload of `FrameConstants` (passes/conventions/frame.h).
+  fg::Buffer frame;  ///< Upload of `FrameConstants` (passes/conventions/frame.h).
   InputConventions conventions;
   SceneDescription scene = {};
 

@@ -1,7 +1,7 @@
 #ifndef WALR_SHADERS_TEMPORAL_REFLECTION_MOTION_H
 #define WALR_SHADERS_TEMPORAL_REFLECTION_MOTION_H
-#include "../guides/prepare_guides.h"
 #include "../common/types.h"
+#include "../guides/prepare_guides.h"
 #ifdef __cplusplus
 namespace walr {
 #endif

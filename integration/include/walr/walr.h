@@ -501,8 +501,8 @@ typedef struct WalrFrame {
    * walr/specular_albedo.h), and linear roughness as in glTF, 0 to 1. `albedo` is then read by diffuse light only. */
   const WalrImage* specular_albedo;
   const WalrImage* roughness;
-  /* With `specular_motion_format`: where the point that specular light comes from was in the previous frame, minus where
-   * it is; three channels, world space, scene units. Without it, what is reflected counts as still. */
+  /* Optional: where the point that specular light comes from was in the previous frame, minus where it is; world space.
+   */
   const WalrImage* specular_motion;
 } WalrFrame;
 

@@ -20,9 +20,9 @@ struct HostFrame {
   Image<glm::dvec3> normal;
   Image<glm::dvec3> motion;
   Image<glm::dvec3> albedo;
-  Image<std::uint32_t> objectId;  ///< May be empty; 0xffffffff: none.
-  Image<double> lightAlpha;       ///< Alpha of the light where it is read; may be empty: 1.
-  Image<double> roughness;        ///< Of specular light, in steps of 1/255; else empty.
+  Image<std::uint32_t> objectId;     ///< May be empty; 0xffffffff: none.
+  Image<double> lightAlpha;          ///< Alpha of the light where it is read; may be empty: 1.
+  Image<double> roughness;           ///< Of specular light, in steps of 1/255; else empty.
   Image<glm::dvec3> specularMotion;  ///< Of what specular light comes from, world space; may be empty: still.
   FrameConstants constants{};
   InputConventions conventions;
