@@ -77,7 +77,7 @@ class Batch {
       RunRecord record;
       record.variant = variant.name;
       lanes_.push_back({GpuDenoiser(device, *makeVariant(variant), sequence.extent(), sequence.denoiserLayout(), {}, 1,
-                                    {sequence.layout().objectIds, sequence.layout().hasSpecular(Role::SpecularMotion)}),
+                                    optionalImages(sequence.layout())),
                         std::move(record),
                         {},
                         {},

@@ -219,7 +219,7 @@ LightDenoisers makeDenoisers(const DenoiseOptions& options, const GpuDevice& dev
             sequence.denoiserLayout(),
             {.views = options.views, .counters = options.counters, .lightDirection = options.lightDirection},
             kFramesInFlight,
-            {sequence.layout().objectIds, sequence.layout().hasSpecular(Role::SpecularMotion)}};
+            optionalImages(sequence.layout())};
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }

@@ -139,6 +139,10 @@ struct GpuDenoiser::State {
   std::deque<Frame> frames;  ///< Frames in flight, except that of `run`.
 };
 
+OptionalImages optionalImages(const RecognizedLayout& layout) {
+  return {.objectIds = layout.objectIds, .specularMotion = layout.hasSpecular(Role::SpecularMotion)};
+}
+
 std::optional<double> DenoisedPicture::milliseconds() const {
   if (passes.empty()) {
     return std::nullopt;

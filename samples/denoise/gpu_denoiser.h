@@ -41,6 +41,9 @@ struct OptionalImages {
   bool specularMotion = false;  ///< `Frame::specularMotion`; of specular light only.
 };
 
+/// Those that the frames of a layout have.
+OptionalImages optionalImages(const RecognizedLayout& layout);
+
 /// Runs a method on a Vulkan device, frame after frame: uploads the inputs, runs the passes, reads back the result, all
 /// in one frame graph that is compiled once. Several denoisers may exist on one device; only one may run at a time.
 ///

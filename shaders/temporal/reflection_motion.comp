@@ -57,7 +57,6 @@ vec3 viewOf(ivec2 p, Reflector own) {
 
 void main() {
   fillTile();
-  barrier();
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(p, pictureSize()))) return;
   const Reflector own = reflectorAt(p);

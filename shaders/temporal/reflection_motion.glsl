@@ -4,7 +4,7 @@
 // Tests history by the plane of the shading normal, by roughness and, of mirrors, by the distance of what is reflected.
 // Needs: what reprojection.glsl needs with KEEP_TAPS, `constants` (ReflectionMotionConstants), `lighting` with the
 // distance of what is reflected as alpha (0: there is no sample), `roughness`, the usampler2D `previousReflector`, and
-// `shadingNormal` or what HOST_SURFACES says. Work groups have 8 x 8 threads, all of which call fillTile, then barrier.
+// `shadingNormal` or what HOST_SURFACES says. Work groups have 8 x 8 threads, all of which call fillTile.
 // HOST_SURFACES: surfaces come from the host's G-buffer (host_surface.glsl, with its needs) in place of guides.
 // Takes constant_id 8. Without kSpecularMotion, `specularMotion` is not read: what is reflected counts as still.
 // DISTANCES: the reflector of every pixel holds the mean distance of what is reflected, which else only mirrors have.
@@ -69,6 +69,7 @@ void fillTile() {
     tileDepths[i] = q == there ? seen.w : 0.0;
     tileNormals[i] = vec4(seen.xyz, texelFetch(lighting, q, 0).a);
   }
+  barrier();
 }
 
 // The place in the tile of the pixel that is `offset` away from this thread's.
@@ -308,6 +309,12 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   return result;
 }
 
+HistoryTaps tapsOf(ivec2 p, ReflectionMotion m) {
+  HistoryTaps taps = tapsAround(p, m.motion, frame.previousPixelFromPixel);
+  taps.accepted = m.taps;
+  return taps;
+}
+
 // Depth of a pixel over the distance of what it reflects, by this frame's samples; below 0 without any. A rough surface
 // reflects many things, and the pixel's own sample shows one of them by chance.
 float nearnessAt(Reflector own, ReflectionMotion m) {
@@ -318,8 +325,7 @@ float nearnessAt(Reflector own, ReflectionMotion m) {
 
 // The mean over time of what samples tell of the distance of what a pixel reflects.
 ReflectedDistance meanDistance(ivec2 p, Reflector own, ReflectionMotion m) {
-  HistoryTaps taps = tapsAround(p, m.motion, frame.previousPixelFromPixel);
-  taps.accepted = m.taps;
+  const HistoryTaps taps = tapsOf(p, m);
   const vec4 weights = tapWeights(taps);
   const uvec4 texels = textureGather(previousReflector, sharedCorner(taps, frame.previousTexel), 1).wzxy;
   ReflectedDistance mean = ReflectedDistance(0.0, 0.0);

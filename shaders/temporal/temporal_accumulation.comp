@@ -170,7 +170,7 @@ HistoryTaps takeGivenTaps(ivec2 p) {
 #endif
 
 #ifdef REFLECTIONS
-// The history of reflected light, no longer than a texture of eight bits would hold it as a confidence.
+// The history of reflected light. Its longest length is rounded to eight bits, as the separate pass stores it.
 ReprojectedHistory historyOfReflection(ivec2 p) {
   const Reflector own = reflectorAt(p);
   const ReflectionMotion m = reflectionMotionAt(p, own);
@@ -178,8 +178,7 @@ ReprojectedHistory historyOfReflection(ivec2 p) {
   imageStore(outTaps, p, uvec4(packTaps(m.motion, m.taps)));
   imageStore(outReflector, p, uvec4(packedReflectorOf(p, own, m), 0u, 0u));
 #endif
-  HistoryTaps taps = tapsAround(p, m.motion, frame.previousPixelFromPixel);
-  taps.accepted = m.taps;
+  const HistoryTaps taps = tapsOf(p, m);
   ReprojectedHistory found = historyAt(taps, tapPosition(taps));
   const float confidence = round(255.0 * m.history / constants.maxHistory) * (1.0 / 255.0);
   found.mean.a = min(found.mean.a, constants.maxHistory * confidence);
@@ -300,7 +299,6 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy, float share) {
 void main() {
 #ifdef REFLECTIONS
   fillTile();
-  barrier();
 #endif
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   const bool inside = all(lessThan(p, pictureSize()));
@@ -394,7 +392,6 @@ void main() {
 #else
 #ifdef REFLECTIONS
   fillTile();
-  barrier();
 #endif
   const bool inside = all(lessThan(p, pictureSize()));
 #endif

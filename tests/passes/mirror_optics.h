@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -104,6 +106,20 @@ inline reference::HostFrame specularFrame(const Scene& scene, const FrameDescrip
                                           double roughness) {
   const reference::HostFrame frame = renderFrame(scene, camera, kMirrorSize, smoothLight, Noise::None);
   return asSpecular(frame, distance, std::round(255.0 * roughness) / 255.0);
+}
+
+/// Figures of errors: their mean, and the largest of 99 in 100.
+struct ErrorFigures {
+  double mean = 0.0;
+  double worst = 0.0;
+
+  [[nodiscard]] std::string text() const { return std::to_string(mean) + " " + std::to_string(worst); }
+};
+inline ErrorFigures figuresOf(std::vector<double> errors) {
+  std::ranges::sort(errors);
+  double sum = 0.0;
+  for (const double e : errors) sum += e;
+  return {sum / static_cast<double>(errors.size()), errors[errors.size() * 99 / 100]};
 }
 
 /// Cameras of two frames, a few pixels of motion apart.

@@ -501,9 +501,7 @@ typedef struct WalrFrame {
    * walr/specular_albedo.h), and linear roughness as in glTF, 0 to 1. `albedo` is then read by diffuse light only. */
   const WalrImage* specular_albedo;
   const WalrImage* roughness;
-  /* Optional: where the point that specular light comes from was in the previous frame, minus where it is; world space.
-   */
-  const WalrImage* specular_motion;
+  const WalrImage* specular_motion; /* Optional: previous minus current position of what is reflected, world space. */
 } WalrFrame;
 
 /*
