@@ -1,6 +1,5 @@
 #include "passes/filters/lobe_filter.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -12,12 +11,18 @@
 namespace walr {
 namespace {
 
-/// Pixels between the taps of each iteration: 1 or even (lobe_filter.comp).
-constexpr std::array<std::uint32_t, 3> kSpacings{1, 2, 4};
+struct Iteration {
+  std::uint32_t spacing;  ///< Pixels between taps.
+  float luminanceErrors;  ///< Halved from one to the next (Dammertz et al. 2010, 2).
+};
+/// With taps 1, 3 and 9 pixels apart, every pixel of the window would count once. Taps 8 apart count few pixels twice,
+/// and an even spacing lets a work group take its taps from quads.
+constexpr std::array kIterations{Iteration{1, 12.0F}, Iteration{3, 6.0F}, Iteration{8, 3.0F}};
 
-/// Threads that cover all pixels: work groups of 16 x 16 that are interleaved where taps are more than 2 pixels apart.
+/// Threads that cover all pixels: work groups of 16 x 16, which are interleaved where the spacing is even
+/// (lobe_filter.comp).
 fg::Extent threadsOf(fg::Extent pixels, std::uint32_t spacing) {
-  const std::uint32_t area = 8 * std::max(spacing, 2U);
+  const std::uint32_t area = spacing % 2 == 0 ? 8 * spacing : 16;
   return {gridExtent(pixels, area).width * area, gridExtent(pixels, area).height * area};
 }
 
@@ -27,10 +32,10 @@ fg::Texture addLobeFilter(StageGraph graph, const LobeFilterInputs& inputs, fg::
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
   const bool readsPacked = lightStorageOf(graph->textureDesc(inputs.accumulated).format) == LightStorage::Packed;
   const bool writesPacked = lightStorageOf(graph->textureDesc(target).format) == LightStorage::Packed;
-  fg::Texture colour, deviation;
-  for (std::size_t i = 0; i < kSpacings.size(); ++i) {
+  fg::Texture colour, standardError;
+  for (std::size_t i = 0; i < kIterations.size(); ++i) {
     const std::string number = std::to_string(i);
-    const bool first = i == 0, last = i + 1 == kSpacings.size();
+    const bool first = i == 0, last = i + 1 == kIterations.size();
     const fg::Shader& shader = first  ? shaders::lobeFilterFirst
                                : last ? shaders::lobeFilterLast({.packed = writesPacked})
                                       : shaders::lobeFilter;
@@ -38,8 +43,9 @@ fg::Texture addLobeFilter(StageGraph graph, const LobeFilterInputs& inputs, fg::
     pass.uniform("frameConstants", inputs.frame)
         .sample("depth", inputs.depth)
         .sample("reflectors", inputs.reflectors)
-        .specialize("kSpacing", kSpacings.at(i))
-        .dispatch(threadsOf(extent, kSpacings.at(i)));
+        .specialize("kSpacing", kIterations.at(i).spacing)
+        .specialize("kLuminanceErrors", kIterations.at(i).luminanceErrors)
+        .dispatch(threadsOf(extent, kIterations.at(i).spacing));
     if (first) {
       pass.sample("lighting", inputs.lighting)
           .specialize("kPackedMean", readsPacked)
@@ -49,13 +55,14 @@ fg::Texture addLobeFilter(StageGraph graph, const LobeFilterInputs& inputs, fg::
           .sampleIf(inputs.antilag.valid(), "antilag", inputs.antilag, inputs.lighting)
           .specialize("kMaxHistory", inputs.maxHistory);
     } else {
-      pass.sample("colour", colour).sample("deviation", deviation);
+      pass.sample("colour", colour).sample("standardError", standardError);
       if (last && !writesPacked) pass.sample("lighting", inputs.lighting);
     }
     colour =
         pass.store("outFiltered", last ? target : graph->texture("lobe mean " + number, {VK_FORMAT_R32_UINT, extent}));
     if (last) break;
-    deviation = pass.store("outDeviation", graph->texture("deviation " + number, {VK_FORMAT_R16_SFLOAT, extent}));
+    standardError =
+        pass.store("outStandardError", graph->texture("standard error " + number, {VK_FORMAT_R16_SFLOAT, extent}));
   }
   return colour;
 }

@@ -154,10 +154,22 @@ class Batch {
     errors.ssim = figures.ssim;
     errors.flip = maskedMean(flip, mask);
     errors.relativeMse = relativeMse(result, input.reference(), mask);
-    if (input.specular()) errors.byRoughness = rmseByRoughness(pair, mask, input.frame().roughness);
+    if (input.specular()) judgeSpecular(errors, input, pair);
     if (isKept(errors.frame)) {
       writeNpy(picture(lane.record.variant, errors.frame), result);
       writeNpy(picture(lane.record.variant + ".errors", errors.frame), errorMaps(pair, mask, flip));
+    }
+  }
+
+  static void judgeSpecular(FrameErrors& errors, const BenchFrame& input, const DisplayedPair& pair) {
+    const Image& roughness = input.frame().roughness;
+    errors.byRoughness = rmseByRoughness(pair, input.judged, roughness);
+    const Image& half = input.referenceHalf();
+    if (half.empty()) return;
+    errors.cleanSquare = cleanSquare(pair.test, input.reference(), half, input.judged);
+    for (std::size_t i = 0; i < kRoughnessClasses; ++i) {
+      const PixelMask mask = maskOfClass(input.judged, roughness, i);
+      errors.cleanSquareByRoughness.at(i) = cleanSquare(pair.test, input.reference(), half, mask);
     }
   }
 

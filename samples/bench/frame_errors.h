@@ -22,8 +22,10 @@ struct FrameErrors {
   std::optional<double> flicker;
   std::optional<double> luminanceChange;
   std::optional<double> referenceLuminanceChange;
-  FiguresByRoughness byRoughness;  ///< RMSE of each class, of specular light.
-  std::size_t nonFinite = 0;       ///< Number of non-finite values in the result.
+  FiguresByRoughness byRoughness;             ///< RMSE of each class, of specular light.
+  std::optional<double> cleanSquare;          ///< See `cleanSquare`; of specular light.
+  FiguresByRoughness cleanSquareByRoughness;  ///< The same of each class.
+  std::size_t nonFinite = 0;                  ///< Number of non-finite values in the result.
 };
 
 /// A member of `FrameErrors` and its name in files.

@@ -13,6 +13,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kByRoughness = "rmse_by_roughness";
+constexpr const char* kCleanSquare = "clean_square";
+constexpr const char* kCleanSquareByRoughness = "clean_square_by_roughness";
+
+FiguresByRoughness figuresByRoughness(const Json& object, const char* name) {
+  FiguresByRoughness figures;
+  for (std::size_t i = 0; object.contains(name) && i < kRoughnessClasses; ++i) {
+    const Json& figure = object[name].at(i);
+    if (!figure.is_null()) figures.at(i) = figure.get<double>();
+  }
+  return figures;
+}
 
 }  // namespace
 
@@ -22,6 +33,8 @@ Json toJson(const RunRecord& record) {
     Json object = {{"frame", frame.frame}, {"history_reset", frame.resetHistory}};
     for (const Metric& metric : kMetrics) object[std::string(metric.name)] = orNull(frame.*metric.figure);
     addByRoughness(object, kByRoughness, frame.byRoughness);
+    if (frame.cleanSquare) object[kCleanSquare] = *frame.cleanSquare;
+    addByRoughness(object, kCleanSquareByRoughness, frame.cleanSquareByRoughness);
     object["non_finite"] = frame.nonFinite;
     frames.push_back(std::move(object));
   }
@@ -43,10 +56,9 @@ RunRecord recordFromJson(const Json& json) {
       const Json& figure = object.at(std::string(metric.name));
       if (!figure.is_null()) frame.*metric.figure = figure.get<double>();
     }
-    for (std::size_t i = 0; object.contains(kByRoughness) && i < kRoughnessClasses; ++i) {
-      const Json& figure = object[kByRoughness].at(i);
-      if (!figure.is_null()) frame.byRoughness.at(i) = figure.get<double>();
-    }
+    frame.byRoughness = figuresByRoughness(object, kByRoughness);
+    if (object.contains(kCleanSquare)) frame.cleanSquare = object[kCleanSquare].get<double>();
+    frame.cleanSquareByRoughness = figuresByRoughness(object, kCleanSquareByRoughness);
     frame.nonFinite = object.at("non_finite");
     record.frames.push_back(frame);
   }

@@ -16,6 +16,21 @@ double countOf(const PixelMask& mask) {
   return static_cast<double>(std::ranges::count_if(mask, [](auto flag) { return flag != 0; }));
 }
 
+/// Mean over the mask's pixels and channels of a function of both halves of a reference, tone-mapped.
+template <typename Function>
+std::optional<double> meanOverHalves(const Image& reference, const Image& half, const PixelMask& mask,
+                                     const Function& function) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    for (std::size_t c = 0; mask[i] != 0 && c < kChannels; ++c) {
+      const float first = half.pixel(i)[c], second = 2.0F * reference.pixel(i)[c] - first;
+      sum += function(i, c, toneMap(first), toneMap(second));
+    }
+  }
+  const double count = countOf(mask);
+  return count > 0.0 ? std::optional(sum / (count * kChannels)) : std::nullopt;
+}
+
 }  // namespace
 
 PixelMask diffuseMask(const Image& albedo, const Image& normal, const Image& depth, float skyDepth) {
@@ -99,17 +114,16 @@ std::optional<double> relativeMse(const Image& test, const Image& reference, con
 }
 
 std::optional<double> referenceNoise(const Image& reference, const Image& half, const PixelMask& mask) {
-  double squares = 0.0;
-  for (std::size_t i = 0; i < mask.size(); ++i) {
-    for (std::size_t c = 0; mask[i] != 0 && c < kChannels; ++c) {
-      const float a = half.pixel(i)[c];
-      const float b = 2.0F * reference.pixel(i)[c] - a;
-      const double difference = static_cast<double>(toneMap(a)) - toneMap(b);
-      squares += difference * difference;
-    }
-  }
-  const double count = countOf(mask);
-  return count > 0.0 ? std::optional(0.5 * std::sqrt(squares / (count * kChannels))) : std::nullopt;
+  const auto squares = meanOverHalves(reference, half, mask,
+                                      [](std::size_t, std::size_t, double a, double b) { return (a - b) * (a - b); });
+  return squares ? std::optional(0.5 * std::sqrt(*squares)) : std::nullopt;
+}
+
+std::optional<double> cleanSquare(const Image& test, const Image& reference, const Image& half, const PixelMask& mask) {
+  return meanOverHalves(reference, half, mask, [&](std::size_t i, std::size_t c, double a, double b) {
+    const double value = test.pixel(i)[c];
+    return (value - a) * (value - b);
+  });
 }
 
 std::size_t countNonFinite(const Image& image) {

@@ -33,14 +33,17 @@ def chosen():
 
 
 def kept_of(run):
+    """Figures of a run. Its errors, "clean" and by roughness, are without the noise of the references."""
     figures = {metric: records.rounded(run["mean"][metric]) for metric in records.FIGURES}
-    judged = [frame["rmse_by_roughness"] for frame in run["frames"] if "rmse_by_roughness" in frame]
-    return {**figures, "by_roughness": means(judged)}
+    judged = [frame for frame in run["frames"] if "clean_square" in frame]
+    return {**figures, "clean": root_of_mean(frame["clean_square"] for frame in judged),
+            "by_roughness": list(map(root_of_mean, zip(*(frame["clean_square_by_roughness"] for frame in judged))))}
 
 
-def means(rows):
-    """Means of lists of figures; None where a figure is not known in every list."""
-    return [None if None in values else records.rounded(records.mean(values)) for values in zip(*rows)]
+def root_of_mean(squares):
+    """None if a square is. The mean of squares without noise may be negative by chance."""
+    squares = list(squares)
+    return None if None in squares else records.rounded(max(records.mean(squares), 0) ** 0.5)
 
 
 def record(bench, found):
@@ -53,7 +56,6 @@ def record(bench, found):
         kept["sequences"][entry.name] = {
             "scene": entry.scene.stem, "camera": entry.camera, "size": list(entry.size), "samples": entry.samples,
             "noise": records.rounded(records.mean(frame["reference_noise"] for frame in frames)),
-            "noise_by_roughness": means([frame["reference_noise_by_roughness"] for frame in frames]),
             "methods": {run["variant"]: kept_of(run) for run in measured["runs"]}}
     records.save("reflections", kept, 3)
 

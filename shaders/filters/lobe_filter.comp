@@ -1,7 +1,7 @@
 // Specular light of `walr` (passes/SPECULAR.md): an edge-avoiding a-trous iteration over 3 x 3 pixels, weighted by how
 // far their lobes cover the same things (lobe_weight.glsl), by the distance from the tangent plane and by luminance.
-// FIRST: reads accumulated light, shortens it by the antilag of its own frame, and estimates the standard deviation
-// that guides the weight of luminance. Other iterations read both from the one before.
+// FIRST: reads accumulated light, shortens it by the antilag of its own frame, and estimates the standard error that
+// guides the weight of luminance. Other iterations read both from the one before.
 // Between iterations, light is packed (packed_light.glsl), as filtered light is. LAST: writes that, without PACKED as
 // halves.
 #version 460
@@ -15,7 +15,9 @@
 #include "conventions/packed_light.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-layout(constant_id = 0) const int kSpacing = 1;  // Pixels between taps: 1 or even.
+layout(constant_id = 0) const int kSpacing = 1;  // Pixels between taps.
+// At which difference of luminance the weight falls to 1/e, in standard errors.
+layout(constant_id = 4) const float kLuminanceErrors = 12.0;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
@@ -29,7 +31,7 @@ uniform texture2D accumulatedHalf;
 uniform sampler2D antilag;
 #else
 uniform utexture2D colour;
-uniform texture2D deviation;  // Standard deviation of the luminance of a sample, below 0 where there is none.
+uniform texture2D standardError;  // Of the luminance, below 0 where there is no light.
 #endif
 #if defined(FIRST) || (defined(LAST) && !defined(PACKED))
 uniform texture2D lighting;
@@ -40,7 +42,7 @@ layout(rgba16f) uniform writeonly image2D outFiltered;
 layout(r32ui) uniform writeonly uimage2D outFiltered;
 #endif
 #ifndef LAST
-layout(r16f) uniform writeonly image2D outDeviation;
+layout(r16f) uniform writeonly image2D outStandardError;
 #endif
 
 #include "filters/lobe_weight.glsl"
@@ -50,30 +52,31 @@ layout(r16f) uniform writeonly image2D outDeviation;
 #endif
 
 const float kNoSample = -1.0;
-// At which difference of luminance the weight falls to 1/e, in deviations. A mirror shows edges that only light tells.
-const float kLuminanceDeviations = 4.0, kMirrorDeviations = 1.0;
-const float kSideTap = 0.4;  // -log2 of the kernel's weight one tap to the side.
+const float kMirrorErrors = 2.5;  // The same in mirrors, which show edges that only light tells.
 
-// A work group filters 8 x 8 quads of 2 x 2 pixels, which are as far apart as taps, so that its taps lie in one tile of
-// quads. Other groups filter the quads between.
+// With an odd spacing, a work group filters 16 x 16 pixels. With an even one, it filters 8 x 8 quads of 2 x 2 pixels,
+// which are as far apart as taps, so that taps far apart lie in one small tile of quads. Other groups filter the quads
+// between.
 const int kSide = 16;
-const int kTapSpacing = kSpacing < 2 ? 1 : 2;  // In the tile.
+const bool kQuads = kSpacing % 2 == 0;
+const int kTapSpacing = kQuads ? 2 : kSpacing;  // In the tile.
 const int kTileSide = kSide + 2 * kTapSpacing;
 const int kTilePixels = kTileSide * kTileSide;
 
 ivec2 pixelAt(ivec2 place) {
-  const int quadSpacing = max(kSpacing, 2), interleaved = quadSpacing / 2;
   const ivec2 group = ivec2(gl_WorkGroupID.xy);
+  if (!kQuads) return group * kSide + place;
+  const int interleaved = kSpacing / 2;
   const ivec2 first = group / interleaved * (kSide * interleaved) + group % interleaved * 2;
-  return first + (place >> 1) * quadSpacing + (place & 1);
+  return first + (place >> 1) * kSpacing + (place & 1);
 }
 
 struct Light {
   vec3 colour;
-  float deviation;  // Of the luminance of one sample; kNoSample without any.
+  float error;   // Standard error of the luminance, after FIRST; kNoSample without any light.
   float samples;
-  float square;     // FIRST: of the difference of this frame's sample, as an estimate of the variance, if there is one.
-  bool measured;    // There is.
+  float square;   // FIRST: of the difference of this frame's sample, as an estimate of the variance, if there is one.
+  bool measured;  // There is.
 };
 
 #ifdef FIRST
@@ -96,15 +99,15 @@ Light lightAt(ivec2 q) {
 }
 #else
 Light lightAt(ivec2 q) {
-  return Light(unpackFiltered(texelFetch(colour, q, 0).x).rgb, texelFetch(deviation, q, 0).x, 1.0, 0.0, false);
+  return Light(unpackFiltered(texelFetch(colour, q, 0).x).rgb, texelFetch(standardError, q, 0).x, 1.0, 0.0, false);
 }
 #endif
 
 shared vec4 tileLobes[kTilePixels];  // Mirrored direction; depth, 0 where the pixel does not count.
 shared LobeReach tileReaches[kTilePixels];
-shared uvec2 tileLight[kTilePixels];  // Colour and deviation as halves.
+shared uvec2 tileLight[kTilePixels];  // Colour and standard error as halves.
 #ifdef FIRST
-shared vec2 tileSamples[kTilePixels];  // Light::square, below 0 unless measured; Light::samples.
+shared vec2 tileSamples[kTilePixels];  // Light::square, below 0 unless measured; one over Light::samples.
 #endif
 
 void fillTile() {
@@ -114,13 +117,13 @@ void fillTile() {
     const float z = unpackDepth(texelFetch(depth, inside, 0).x);
     const uvec2 reflector = texelFetch(reflectors, inside, 0).xy;
     const Light light = lightAt(inside);
-    const bool counts = q == inside && light.deviation >= 0.0;
+    const bool counts = q == inside && light.error >= 0.0;
     const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(inside));
     tileLobes[i] = vec4(reflect(normalize(ray), unpackLongNormal(reflector.x)), counts ? z : 0.0);
     tileReaches[i] = lobeReach(reflector);
-    tileLight[i] = uvec2(packHalf2x16(light.colour.rg), packHalf2x16(vec2(light.colour.b, light.deviation)));
+    tileLight[i] = uvec2(packHalf2x16(light.colour.rg), packHalf2x16(vec2(light.colour.b, light.error)));
 #ifdef FIRST
-    tileSamples[i] = vec2(light.measured ? light.square : -1.0, light.samples);
+    tileSamples[i] = vec2(light.measured ? light.square : -1.0, 1.0 / max(light.samples, 1.0));
 #endif
   }
   barrier();
@@ -135,7 +138,7 @@ vec4 tapLight(int index) {
 // Standard deviation of the luminance of one sample over the pixels around, by their weights: from the differences of
 // this frame's samples, or where hardly any pixel has a history, from those between the pixels.
 float deviationAround(int centre) {
-  float squares = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, samples = 0.0, weights = 0.0;
+  float squares = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, inverses = 0.0, weights = 0.0;
   [[unroll]] for (int i = 0; i < 9; ++i) {
     const int index = centre + (i / 3 - 1) * kTileSide + i % 3 - 1;
     const float weight = tileLobes[index].w > 0.0 ? 1.0 : 0.0;
@@ -145,24 +148,24 @@ float deviationAround(int centre) {
     measured += sampled.x >= 0.0 ? weight : 0.0;
     sum += weight * l;
     sumOfSquares += weight * l * l;
-    samples += weight * sampled.y;
+    inverses += weight * sampled.y;
     weights += weight;
   }
   if (weights == 0.0) return kNoSample;
   const float mean = sum / weights;
-  const float spread = max(sumOfSquares / weights - mean * mean, 0.0) * samples / weights;
+  const float spread = max(sumOfSquares / weights - mean * mean, 0.0) * weights / inverses;
   const float known = min(4.0 * measured / weights, 1.0);
   return min(sqrt(mix(4.0 * spread, squares / max(measured, 1e-6), known)), kLargestHalf);
 }
 #else
-// The root of the mean variance of the pixel and its four nearest taps.
-float deviationAround(int centre) {
+// The root of the mean square of the standard errors of the pixel and its four nearest taps.
+float errorAround(int centre) {
   float sum = 0.0, weights = 0.0;
   [[unroll]] for (int i = 0; i < 9; ++i) {
     if (i % 2 == 0 && i != 4) continue;
     const int index = centre + kTapSpacing * ((i / 3 - 1) * kTileSide + i % 3 - 1);
-    const float weight = tileLobes[index].w > 0.0 ? 1.0 : 0.0, deviation = unpackHalf2x16(tileLight[index].y).y;
-    sum += weight * deviation * deviation;
+    const float weight = tileLobes[index].w > 0.0 ? 1.0 : 0.0, error = unpackHalf2x16(tileLight[index].y).y;
+    sum += weight * error * error;
     weights += weight;
   }
   return weights > 0.0 ? sqrt(sum / weights) : kNoSample;
@@ -176,7 +179,7 @@ void storeNoSurface(ivec2 p) {
   imageStore(outFiltered, p, uvec4(kFilteredNoSurface));
 #endif
 #ifndef LAST
-  imageStore(outDeviation, p, vec4(kNoSample));
+  imageStore(outStandardError, p, vec4(kNoSample));
 #endif
 }
 
@@ -188,7 +191,7 @@ void store(ivec2 p, vec4 light) {
   imageStore(outFiltered, p, uvec4(packFiltered(within, ditherNumber(p, frame.frameIndex))));
 #endif
 #ifndef LAST
-  imageStore(outDeviation, p, vec4(min(light.a, kLargestHalf)));
+  imageStore(outStandardError, p, vec4(min(light.a, kLargestHalf)));
 #endif
 }
 
@@ -213,26 +216,32 @@ void main() {
     const int index = centre + kTapSpacing * (tap.y * kTileSide + tap.x);
     guides[i] = i == 4 ? 0.0 : lobeExponent(lobe, vec2(kSpacing * tap), tileLobes[index], tileReaches[index]);
   }
+#ifdef FIRST
   const float deviation = deviationAround(centre);
+  const float error = deviation * sqrt(tileSamples[centre].y);
+#else
+  const float error = errorAround(centre);
+#endif
   const float ownLuminance = luminance(own.rgb);
   // Luminances that differ by less than the rounding of halves count as equal.
-  const float deviations = isMirror(tileReaches[centre]) ? kMirrorDeviations : kLuminanceDeviations;
-  const float falloff = hasLight ? kLog2OfE / (deviations * deviation + ownLuminance * 1e-3 + 1e-7) : 0.0;
+  const float errors = isMirror(tileReaches[centre]) ? kMirrorErrors : kLuminanceErrors;
+  const float falloff = hasLight ? kLog2OfE / (errors * error + ownLuminance * 1e-3 + 1e-7) : 0.0;
   vec3 sum = vec3(0.0);
   float variance = 0.0, weights = 0.0;
   [[unroll]] for (int i = 0; i < 9; ++i) {
     const ivec2 tap = ivec2(i % 3, i / 3) - 1;
     const int index = centre + kTapSpacing * (tap.y * kTileSide + tap.x);
-    vec4 light = tapLight(index);
+    const vec4 light = tapLight(index);
 #ifdef FIRST
-    const float square = tileSamples[index].x;
-    light.a = square >= 0.0 ? sqrt(square) : deviation;
+    const vec2 sampled = tileSamples[index];
+    const float square = (sampled.x >= 0.0 ? sampled.x : deviation * deviation) * sampled.y;
+#else
+    const float square = light.a * light.a;
 #endif
-    const float kernel = -kSideTap * float(abs(tap.x) + abs(tap.y));
-    const float exponent = kernel + guides[i] - abs(luminance(light.rgb) - ownLuminance) * falloff;
+    const float exponent = guides[i] - abs(luminance(light.rgb) - ownLuminance) * falloff;
     const float weight = tileLobes[index].w > 0.0 ? (i == 4 ? 1.0 : exp2(exponent)) : 0.0;
     sum += weight * light.rgb;
-    variance += weight * light.a * (weight * light.a);
+    variance += weight * weight * square;
     weights += weight;
   }
   store(p, weights > 0.0 ? vec4(sum, sqrt(variance)) / weights : vec4(0.0, 0.0, 0.0, kNoSample));

@@ -1,3 +1,4 @@
+#include "samples/image/tone_map.h"
 #include "samples/metrics/metrics.h"
 
 #include <cmath>
@@ -114,6 +115,35 @@ TEST(Metrics, NoiseOfAReferenceIsThatOfTheMeanOfItsHalves) {
   const double spread = 5.0 / std::sqrt(kSize * kSize * 3.0);
   EXPECT_NEAR(*referenceNoise(reference, half, fullMask(reference)), expected, (spread + 0.003) * expected);
   EXPECT_FALSE(referenceNoise(reference, half, PixelMask(reference.pixelCount(), 0)).has_value());
+}
+
+TEST(Metrics, ACleanSquareIsThatOfTheErrorAlone) {
+  // Rare light: of 4 samples a half, each finds light 40 with a chance of 1/20. The tone map bends over such noise.
+  constexpr std::uint32_t kSize = 256;
+  constexpr float kValue = 0.4F;
+  Image test(kSize, kSize, 3), reference(kSize, kSize, 3), half(kSize, kSize, 3);
+  double meanOfHalves = 0.0;
+  for (std::uint32_t i = 0; i < kSize * kSize * 3; ++i) {
+    float found[2] = {0.0F, 0.0F};
+    for (std::uint32_t k = 0; k < 8; ++k) found[k / 4] += test::uniform(8 * i + k) < 0.05 ? 10.0F : 0.0F;
+    test.values()[i] = kValue;
+    half.values()[i] = found[0];
+    reference.values()[i] = 0.5F * (found[0] + found[1]);
+    meanOfHalves += 0.5 * (toneMap(found[0]) + toneMap(found[1]));
+  }
+  meanOfHalves /= kSize * kSize * 3.0;
+  // Halves are independent, so that the product's mean is the square of the mean error. Tone-mapped values lie within 0
+  // and 1, and so do products of errors: five standard errors of the mean of n of them are at most 5 / (2 sqrt(n)).
+  const double expected = (kValue - meanOfHalves) * (kValue - meanOfHalves);
+  const double tolerance = 2.5 / std::sqrt(kSize * kSize * 3.0);
+  const PixelMask all = fullMask(reference);
+  EXPECT_NEAR(cleanSquare(test, reference, half, all).value(), expected, tolerance);
+  // The square less that of the estimated noise is not.
+  Image shown = reference;
+  for (float& value : shown.values()) value = toneMap(value);
+  const double square = std::pow(rmseOf({test, shown}, all).value(), 2.0);
+  EXPECT_GT(std::abs(square - std::pow(referenceNoise(reference, half, all).value(), 2.0) - expected), 2.0 * tolerance);
+  EXPECT_FALSE(cleanSquare(test, reference, half, PixelMask(reference.pixelCount(), 0)).has_value());
 }
 
 TEST(Metrics, MaskedOutPixelsDoNotCount) {

@@ -127,6 +127,10 @@ TEST_F(ProgramTest, DenoisesSpecularLight) {
   EXPECT_EQ(sequence["runs"][1]["frames"][3]["rmse"], last["specular"]["noisy"]["rmse"]);
   const auto noise = sequence["frames"][3]["reference_noise_by_roughness"];
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(noise[i].is_null(), judged["rmse_by_roughness"][i].is_null()) << i;
+  const auto clean = judged["clean_square_by_roughness"];
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(clean[i].is_null(), noise[i].is_null()) << i;
+  // What the noise of the reference adds is left out.
+  EXPECT_LT(judged["clean_square"].get<double>(), std::pow(judged["rmse"].get<double>(), 2.0));
   EXPECT_NE(test::readText(compared / "report.html").find(".6 to 1"), std::string::npos);
 
   expectFailure(denoise({"--light", "specular", "--method", "walr_paper"}), kUsage,

@@ -20,16 +20,10 @@ def errors_table(kept):
     return table(["sequence", "lines", "samples", "method", *LABELS.values(), "noise of the reference"], rows)
 
 
-def without_noise(error, noise):
-    """An RMSE without what the noise of the reference adds to it."""
-    return None if error is None or noise is None else max(error**2 - noise**2, 0) ** 0.5
-
-
 def roughness_table(kept):
     rows = []
     for name, sequence in kept["sequences"].items():
-        noise = sequence["noise_by_roughness"]
-        errors = {m: [without_noise(*pair) for pair in zip(f["by_roughness"], noise)] for m, f in sequence["methods"].items()}
+        errors = {method: figures["by_roughness"] for method, figures in sequence["methods"].items()}
         for method in FILTERS:
             rows.append([f"`{name}`", f"`{method}`", *(over(a, b) for a, b in zip(errors[method], errors["accumulate"]))])
     return table(["sequence", "method", *CLASSES], rows)
@@ -39,8 +33,7 @@ def standing(kept):
     """How often the default is ahead of its rival, and by how much in the mean."""
     ratios = {}
     for name, sequence in kept["sequences"].items():
-        errors = {m: without_noise(f["rmse"], sequence["noise"]) for m, f in sequence["methods"].items()}
-        ratios[name] = errors["walr"] / errors["svgf"]
+        ratios[name] = sequence["methods"]["walr"]["clean"] / sequence["methods"]["svgf"]["clean"]
     ahead = sum(ratio < 1 for ratio in ratios.values())
     return (f"The error of `walr` is below that of `svgf` in {ahead} of {len(ratios)} sequences; their ratio is {mean(ratios.values()):.2f} "
             f"in the mean, from {min(ratios.values()):.2f} to {max(ratios.values()):.2f}.")
@@ -64,7 +57,8 @@ Written by `samples/results/write.py` from `data/reflections.json`, which `sampl
 commit {kept['commit']}. The scenes are built in; the camera moves, except in `gloss_still_216`, where only a thing in front of the
 mirrors does.
 
-{filled(standing(kept) + " Noise of the references is taken off for that, and in the table by roughness.")}
+{filled(standing(kept) + " These errors, and those by roughness, are roots of mean "
+        "products of the errors against both halves of the references' samples, which are free of the references' noise.")}
 ## Errors by sequence
 
 {errors_table(kept)}

@@ -11,10 +11,10 @@
 namespace walr::reference {
 namespace {
 
-/// Light with the standard deviation of its luminance; below 0: there is none.
+/// Light with the standard error of its luminance; below 0: there is none.
 struct Light {
   glm::dvec3 colour{0.0};
-  double deviation = -1.0;
+  double error = -1.0;
 };
 
 /// What tells how far two pixels reflect the same light.
@@ -71,7 +71,7 @@ Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides,
   // Variances of a sample's luminance by this frame's sample and the mean that holds it; below 0 without both.
   Image<double> squares(guides.size(), -1.0);
   Image<Light> light(guides.size());
-  const auto hasLight = [&](glm::ivec2 q) { return lobes.isSurface(q) && light[q].deviation >= 0.0; };
+  const auto hasLight = [&](glm::ivec2 q) { return lobes.isSurface(q) && light[q].error >= 0.0; };
   forEachPixel(guides.size(), [&](glm::ivec2 p) {
     const double samples = accumulated[p].a;
     if (samples > 0.0) light[p] = {glm::dvec3(accumulated[p]), 0.0};
@@ -79,17 +79,18 @@ Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides,
     const double difference = luminance(glm::dvec3(lighting[p]) - glm::dvec3(accumulated[p]));
     squares[p] = difference * difference * samples / (samples - 1.0);
   });
-  for (const int spacing : {1, 2, 4}) {
+  double luminanceErrors = 12.0;
+  for (const int spacing : {1, 3, 8}) {
     Image<Light> filtered(guides.size());
     forEachPixel(guides.size(), [&](glm::ivec2 p) {
       if (!lobes.isSurface(p)) return;
-      double variance = 0.0, weights = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, samples = 0.0;
+      double variance = 0.0, weights = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, inverses = 0.0;
       forTaps(p, spacing, [&](glm::ivec2 q, glm::ivec2 tap) {
         if (!hasLight(q)) return;
         if (spacing > 1 && tap.x != 0 && tap.y != 0) return;
         weights += 1.0;
         if (spacing > 1) {
-          variance += std::pow(light[q].deviation, 2.0);
+          variance += std::pow(light[q].error, 2.0);
           return;
         }
         const double l = luminance(light[q].colour);
@@ -97,27 +98,28 @@ Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides,
         measured += squares[q] >= 0.0 ? 1.0 : 0.0;
         sum += l;
         sumOfSquares += l * l;
-        samples += accumulated[q].a;
+        inverses += 1.0 / std::max(accumulated[q].a, 1.0);
       });
       if (weights == 0.0) return;
-      double deviation = std::sqrt(variance / weights);
+      double error = std::sqrt(variance / weights), deviation = 0.0;
       if (spacing == 1) {
-        const double spread = std::max(sumOfSquares / weights - std::pow(sum / weights, 2.0), 0.0) * samples / weights;
+        const double spread = std::max(sumOfSquares / weights - std::pow(sum / weights, 2.0), 0.0) * weights / inverses;
         const double known = std::min(4.0 * measured / weights, 1.0);
         deviation = std::sqrt(4.0 * (1.0 - known) * spread + known * variance / std::max(measured, 1e-6));
+        error = deviation / std::sqrt(std::max(accumulated[p].a, 1.0));
       }
       const bool own = hasLight(p);
       const double ownLuminance = luminance(light[p].colour);
-      const double unit = (lobes.isMirror(p) ? 1.0 : 4.0) * deviation + 1e-3 * ownLuminance + 1e-7;
+      const double unit = (lobes.isMirror(p) ? 2.5 : luminanceErrors) * error + 1e-3 * ownLuminance + 1e-7;
       glm::dvec3 colour(0.0);
       double mixed = 0.0, total = 0.0;
-      forTaps(p, spacing, [&](glm::ivec2 q, glm::ivec2 tap) {
+      forTaps(p, spacing, [&](glm::ivec2 q, glm::ivec2 /*tap*/) {
         if (!hasLight(q)) return;
         const double difference = own ? std::abs(luminance(light[q].colour) - ownLuminance) / unit : 0.0;
-        const double weight =
-            std::exp2(-0.4 * (std::abs(tap.x) + std::abs(tap.y))) * lobes.weight(p, q, own) * std::exp(-difference);
+        const double weight = lobes.weight(p, q, own) * std::exp(-difference);
         const double tapVariance =
-            spacing > 1 ? std::pow(light[q].deviation, 2.0) : (squares[q] >= 0.0 ? squares[q] : deviation * deviation);
+            spacing > 1 ? std::pow(light[q].error, 2.0)
+                        : (squares[q] >= 0.0 ? squares[q] : deviation * deviation) / std::max(accumulated[q].a, 1.0);
         colour += weight * light[q].colour;
         mixed += weight * weight * tapVariance;
         total += weight;
@@ -125,6 +127,7 @@ Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides,
       if (total > 0.0) filtered[p] = {colour / total, std::sqrt(mixed) / total};
     });
     light = filtered;
+    luminanceErrors *= 0.5;
   }
   Image<glm::dvec3> result(guides.size());
   forEachPixel(guides.size(),
