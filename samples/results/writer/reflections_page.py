@@ -67,7 +67,8 @@ follows the surface, so that an image that moves over it counts where it is wron
 
 ## Errors by linear roughness
 
-RMSE over that of `accumulate`, which is the input of every filter here; above 1, filtering harms.
+RMSE over that of `accumulate`, which is the input of every filter here; above 1, filtering harms. A dash stands where a sequence
+has no such surface, or where the error is too small to tell from chance.
 
 {roughness_table(kept)}
 ## What both lights cost
