@@ -50,9 +50,11 @@ GuideNeeds needsOf(const WalrSettings& settings, const TemporalPlan& plan) {
 /// The method for specular light: means over lobes take the place of fits.
 fg::Texture addSpecularWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
                             const WalrSettings& settings) {
+  TemporalAccumulationSettings accumulation = settings.accumulation;
+  accumulation.maxHistory = settings.maxSpecularHistory;
   TemporalAntialiasingSettings antialiasing = settings.antialiasing;
   antialiasing.clipGamma = settings.specularClipGamma;
-  const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = settings.accumulation,
+  const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = accumulation,
                                                         .antialiasing = antialiasing,
                                                         .spatialOnly = settings.spatialOnly,
                                                         .keepTaps = true});
@@ -64,7 +66,7 @@ fg::Texture addSpecularWalr(StageGraph graph, const DenoiserInputs& inputs, fg::
                                               .accumulated = accumulated.lighting,
                                               .lighting = inputs.lighting,
                                               .antilag = accumulated.antilag,
-                                              .maxHistory = settings.accumulation.maxHistory},
+                                              .maxHistory = accumulation.maxHistory},
                                              filterTarget(graph, plan, output));
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
 }

@@ -19,6 +19,8 @@ struct WalrSettings {
                                             .thresholds = kStrictThresholds,
                                             .antilag = {.enabled = true},
                                             .storage = LightStorage::Packed};
+  /// Wide windows need less history, and a short one blurs less what moves on the surface.
+  float maxSpecularHistory = 5.0F;
   AmbientOcclusionSettings occlusion;
   BlockRegressionSettings blocks;
   bool fitWindow = true;
@@ -32,6 +34,9 @@ struct WalrSettings {
             spatialOnly);
     guides.visit(v);
     accumulation.visitAmounts(v);
+    v.visit({"accumulation.max-specular-history", "Specular light: `accumulation.max-history`", "frames", 1.0, 255.0,
+             "measured"},
+            maxSpecularHistory);
     accumulation.visitStorage(v);
     v.visit(
         {"walr.fit-window",
