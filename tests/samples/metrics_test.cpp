@@ -1,4 +1,3 @@
-#include "samples/image/tone_map.h"
 #include "samples/metrics/metrics.h"
 
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "samples/image/tone_map.h"
 #include "tests/samples/metric_pictures.h"
 
 namespace walr {
