@@ -48,8 +48,8 @@ std::optional<double> relativeMse(const Image& test, const Image& reference, con
 /// @returns nullopt if the mask is empty
 std::optional<double> referenceNoise(const Image& reference, const Image& half, const PixelMask& mask);
 
-/// The mean squared error of a result without the reference's noise: the mean of (T(x) - T(A)) (T(x) - T(B)), A, B and T
-/// as for `referenceNoise`. Where light is rare, that subtracts the noise more exactly than the square of
+/// The mean squared error of a result without the reference's noise: the mean of (T(x) - T(A)) (T(x) - T(B)), A, B and
+/// T as for `referenceNoise`. Where light is rare, that subtracts the noise more exactly than the square of
 /// `referenceNoise` does, which the tone map makes too small. Chance can make it negative.
 /// @param test  T(x), as `display` makes it
 /// @returns nullopt if the mask is empty
