@@ -11,9 +11,10 @@
 namespace walr {
 namespace {
 
+/// Constants of lobe_filter.comp.
 struct Iteration {
-  std::uint32_t spacing;  ///< Pixels between taps.
-  float luminanceErrors;  ///< Halved from one to the next (Dammertz et al. 2010, 2).
+  std::uint32_t spacing;  ///< kSpacing.
+  float luminanceErrors;  ///< kLuminanceErrors, halved from one iteration to the next (Dammertz et al. 2010).
 };
 /// With taps 1, 3 and 9 pixels apart, every pixel of the window would count once. Taps 8 apart count few pixels twice,
 /// and an even spacing lets a work group take its taps from quads.

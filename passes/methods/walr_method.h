@@ -6,6 +6,7 @@
 #include "passes/guides/prepare_guides.h"
 #include "passes/regression/block_regression.h"
 #include "passes/stage/stage_graph.h"
+#include "passes/temporal/reflection_motion.h"
 #include "passes/temporal/temporal_accumulation.h"
 #include "passes/temporal/temporal_antialiasing.h"
 
@@ -34,9 +35,7 @@ struct WalrSettings {
             spatialOnly);
     guides.visit(v);
     accumulation.visitAmounts(v);
-    v.visit({"accumulation.max-specular-history", "Specular light: `accumulation.max-history`", "frames", 1.0, 255.0,
-             "measured"},
-            maxSpecularHistory);
+    visitMaxSpecularHistory(v, maxSpecularHistory);
     accumulation.visitStorage(v);
     v.visit(
         {"walr.fit-window",

@@ -27,6 +27,13 @@ struct ReflectionMotionSettings {
   }
 };
 
+/// Visit the length of history of methods that keep another one for specular light than for diffuse light.
+inline void visitMaxSpecularHistory(SettingVisitor& v, float& maxHistory) {
+  v.visit({"accumulation.max-specular-history", "Specular light: `accumulation.max-history`", "frames", 1.0, 255.0,
+           "measured"},
+          maxHistory);
+}
+
 /// Where the specular light of every pixel was in the previous frame.
 struct ReflectionMotion {
   fg::Texture taps;        ///< R32_UINT: as `AccumulationWithTaps::taps`.

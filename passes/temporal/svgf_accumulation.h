@@ -24,9 +24,7 @@ struct SvgfAccumulationSettings {
     v.visit({"accumulation.max-moment-history", "Frames after which the luminance moments turn exponential", "frames",
              1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},
             maxMomentHistory);
-    v.visit({"accumulation.max-specular-history", "Specular light: `accumulation.max-history`", "frames", 1.0, 255.0,
-             "measured"},
-            maxSpecularHistory);
+    visitMaxSpecularHistory(v, maxSpecularHistory);
     visitThresholds(v, "accumulation.plane-tolerance", "accumulation.normal-threshold", thresholds);
   }
 };

@@ -166,11 +166,9 @@ class Batch {
     errors.byRoughness = rmseByRoughness(pair, input.judged, roughness);
     const Image& half = input.referenceHalf();
     if (half.empty()) return;
-    errors.cleanSquare = cleanSquare(pair.test, input.reference(), half, input.judged);
-    for (std::size_t i = 0; i < kRoughnessClasses; ++i) {
-      const PixelMask mask = maskOfClass(input.judged, roughness, i);
-      errors.cleanSquareByRoughness.at(i) = cleanSquare(pair.test, input.reference(), half, mask);
-    }
+    const auto squareOf = [&](const PixelMask& mask) { return cleanSquare(pair.test, input.reference(), half, mask); };
+    errors.cleanSquare = squareOf(input.judged);
+    errors.cleanSquareByRoughness = figuresByRoughness(input.judged, roughness, squareOf);
   }
 
   void judgeChange(Lane& lane, const DisplayedPair& pair, const PixelMask& mask,

@@ -89,11 +89,11 @@ std::vector<FrameFacts> survey(const Sequence& sequence) {
           disoccludedShare(judgedPairs(previousPixels(frame.surfaces, previous.surfaces), mask, previous.judged), mask);
     }
     if (fact.hasReference && !frame.referenceHalf().empty()) {
-      fact.referenceNoise = referenceNoise(frame.reference(), frame.referenceHalf(), mask);
-      for (std::size_t i = 0; frame.specular() && i < kRoughnessClasses; ++i) {
-        fact.noiseByRoughness.at(i) =
-            referenceNoise(frame.reference(), frame.referenceHalf(), maskOfClass(mask, frame.frame().roughness, i));
-      }
+      const auto noiseOf = [&](const PixelMask& pixels) {
+        return referenceNoise(frame.reference(), frame.referenceHalf(), pixels);
+      };
+      fact.referenceNoise = noiseOf(mask);
+      if (frame.specular()) fact.noiseByRoughness = figuresByRoughness(mask, frame.frame().roughness, noiseOf);
     }
     previous = std::move(frame);
     facts.push_back(fact);

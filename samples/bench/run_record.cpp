@@ -16,7 +16,7 @@ constexpr const char* kByRoughness = "rmse_by_roughness";
 constexpr const char* kCleanSquare = "clean_square";
 constexpr const char* kCleanSquareByRoughness = "clean_square_by_roughness";
 
-FiguresByRoughness figuresByRoughness(const Json& object, const char* name) {
+FiguresByRoughness readByRoughness(const Json& object, const char* name) {
   FiguresByRoughness figures;
   for (std::size_t i = 0; object.contains(name) && i < kRoughnessClasses; ++i) {
     const Json& figure = object[name].at(i);
@@ -56,9 +56,9 @@ RunRecord recordFromJson(const Json& json) {
       const Json& figure = object.at(std::string(metric.name));
       if (!figure.is_null()) frame.*metric.figure = figure.get<double>();
     }
-    frame.byRoughness = figuresByRoughness(object, kByRoughness);
+    frame.byRoughness = readByRoughness(object, kByRoughness);
     if (object.contains(kCleanSquare)) frame.cleanSquare = object[kCleanSquare].get<double>();
-    frame.cleanSquareByRoughness = figuresByRoughness(object, kCleanSquareByRoughness);
+    frame.cleanSquareByRoughness = readByRoughness(object, kCleanSquareByRoughness);
     frame.nonFinite = object.at("non_finite");
     record.frames.push_back(frame);
   }

@@ -14,9 +14,7 @@ PixelMask maskOfClass(const PixelMask& mask, const Image& roughness, std::size_t
 }
 
 FiguresByRoughness rmseByRoughness(const DisplayedPair& pair, const PixelMask& mask, const Image& roughness) {
-  FiguresByRoughness errors;
-  for (std::size_t i = 0; i < errors.size(); ++i) errors.at(i) = rmseOf(pair, maskOfClass(mask, roughness, i));
-  return errors;
+  return figuresByRoughness(mask, roughness, [&](const PixelMask& ofClass) { return rmseOf(pair, ofClass); });
 }
 
 }  // namespace walr

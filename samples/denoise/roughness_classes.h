@@ -25,6 +25,15 @@ inline bool hasFigures(const FiguresByRoughness& figures) {
 /// @param roughness 1 component: linear
 PixelMask maskOfClass(const PixelMask& mask, const Image& roughness, std::size_t roughnessClass);
 
+/// A figure of each class.
+/// @param figureOf computes it from the mask of a class
+template <typename Figure>
+FiguresByRoughness figuresByRoughness(const PixelMask& mask, const Image& roughness, const Figure& figureOf) {
+  FiguresByRoughness figures;
+  for (std::size_t i = 0; i < figures.size(); ++i) figures.at(i) = figureOf(maskOfClass(mask, roughness, i));
+  return figures;
+}
+
 /// RMSE of each class.
 FiguresByRoughness rmseByRoughness(const DisplayedPair& pair, const PixelMask& mask, const Image& roughness);
 

@@ -52,7 +52,7 @@ layout(r16f) uniform writeonly image2D outStandardError;
 #endif
 
 const float kNoSample = -1.0;
-const float kMirrorErrors = 2.5;  // The same in mirrors, which show edges that only light tells.
+const float kMirrorErrors = 2.5;  // kLuminanceErrors of mirrors, which show edges that only light tells.
 
 // With an odd spacing, a work group filters 16 x 16 pixels. With an even one, it filters 8 x 8 quads of 2 x 2 pixels,
 // which are as far apart as taps, so that taps far apart lie in one small tile of quads. Other groups filter the quads
@@ -73,7 +73,7 @@ ivec2 pixelAt(ivec2 place) {
 
 struct Light {
   vec3 colour;
-  float error;   // Standard error of the luminance, after FIRST; kNoSample without any light.
+  float error;   // Standard error of the luminance; in FIRST not known yet, 0. kNoSample without any light.
   float samples;
   float square;   // FIRST: of the difference of this frame's sample, as an estimate of the variance, if there is one.
   bool measured;  // There is.
