@@ -2,6 +2,14 @@
 #ifndef WALR_LUMINANCE_GLSL
 #define WALR_LUMINANCE_GLSL
 
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+const vec3 kLuminanceFactors = vec3(0.2126, 0.7152, 0.0722);
+float luminance(vec3 c) { return dot(c, kLuminanceFactors); }
+
+// A colour with its luminance in place of green, whose part of it is the largest, and back.
+vec3 luminanceForGreen(vec3 c) { return vec3(c.x, luminance(c), c.z); }
+vec3 greenForLuminance(vec3 c) {
+  const float green = (c.y - kLuminanceFactors.x * c.x - kLuminanceFactors.z * c.z) / kLuminanceFactors.y;
+  return vec3(c.x, max(green, 0.0), c.z);
+}
 
 #endif

@@ -8,10 +8,11 @@ float validRoughness(float r) { return isFinite(r) ? clamp(r, 0.0, 1.0) : 1.0; }
 
 const float kLeastDistance = 1e-3;  // Of what is reflected, over view depth.
 
-// View depth over the distance of what is reflected. The largest half stands for all that is farther.
-float nearnessOf(float distance, float z) {
-  return distance < kLargestHalf ? z / max(distance, kLeastDistance * z) : 0.0;
-}
+// One over the distance of what is reflected, which is above 0. The largest half stands for all that is farther.
+float inverseDistance(float distance) { return distance < kLargestHalf ? 1.0 / distance : 0.0; }
+
+// View depth over the distance of what is reflected.
+float nearnessOf(float inverse, float z) { return min(inverse * z, 1.0 / kLeastDistance); }
 
 // Half angle of the lobe about the mirror direction, radians. `r`: linear roughness.
 float lobeAngle(float r) { return 2.0 * atan(r * r); }

@@ -105,7 +105,7 @@ Light lightAt(ivec2 q) {
 
 shared vec4 tileLobes[kTilePixels];  // Mirrored direction; depth, 0 where the pixel does not count.
 shared LobeReach tileReaches[kTilePixels];
-shared uvec2 tileLight[kTilePixels];  // Colour and standard error as halves.
+shared uvec2 tileLight[kTilePixels];  // Halves: red, luminance, blue, standard error.
 #ifdef FIRST
 shared vec2 tileSamples[kTilePixels];  // Light::square, below 0 unless measured; one over Light::samples.
 #endif
@@ -121,7 +121,8 @@ void fillTile() {
     const vec3 ray = rayThrough(frame.rayFromPixel, pixelCentre(inside));
     tileLobes[i] = vec4(reflect(normalize(ray), unpackLongNormal(reflector.x)), counts ? z : 0.0);
     tileReaches[i] = lobeReach(reflector);
-    tileLight[i] = uvec2(packHalf2x16(light.colour.rg), packHalf2x16(vec2(light.colour.b, light.error)));
+    const vec3 colour = luminanceForGreen(light.colour);
+    tileLight[i] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, light.error)));
 #ifdef FIRST
     tileSamples[i] = vec2(light.measured ? light.square : -1.0, 1.0 / max(light.samples, 1.0));
 #endif
@@ -143,7 +144,7 @@ float deviationAround(int centre) {
     const int index = centre + (i / 3 - 1) * kTileSide + i % 3 - 1;
     const float weight = tileLobes[index].w > 0.0 ? 1.0 : 0.0;
     const vec2 sampled = tileSamples[index];
-    const float l = luminance(tapLight(index).rgb);
+    const float l = tapLight(index).y;
     squares += weight * max(sampled.x, 0.0);
     measured += sampled.x >= 0.0 ? weight : 0.0;
     sum += weight * l;
@@ -183,11 +184,13 @@ void storeNoSurface(ivec2 p) {
 #endif
 }
 
+// `light`: red, luminance, blue, standard error.
 void store(ivec2 p, vec4 light) {
+  const vec3 colour = greenForLuminance(light.xyz);
 #if defined(LAST) && !defined(PACKED)
-  imageStore(outFiltered, p, nearestHalf(vec4(light.rgb, 1.0)));
+  imageStore(outFiltered, p, nearestHalf(vec4(colour, 1.0)));
 #else
-  const vec3 within = clamp(light.rgb, vec3(0.0), vec3(largestPacked(9)));
+  const vec3 within = clamp(colour, vec3(0.0), vec3(largestPacked(9)));
   imageStore(outFiltered, p, uvec4(packFiltered(within, ditherNumber(p, frame.frameIndex))));
 #endif
 #ifndef LAST
@@ -222,27 +225,26 @@ void main() {
 #else
   const float error = errorAround(centre);
 #endif
-  const float ownLuminance = luminance(own.rgb);
   // Luminances that differ by less than the rounding of halves count as equal.
   const float errors = isMirror(tileReaches[centre]) ? kMirrorErrors : kLuminanceErrors;
-  const float falloff = hasLight ? kLog2OfE / (errors * error + ownLuminance * 1e-3 + 1e-7) : 0.0;
+  const float falloff = hasLight ? kLog2OfE / (errors * error + own.y * 1e-3 + 1e-7) : 0.0;
   vec3 sum = vec3(0.0);
   float variance = 0.0, weights = 0.0;
   [[unroll]] for (int i = 0; i < 9; ++i) {
     const ivec2 tap = ivec2(i % 3, i / 3) - 1;
     const int index = centre + kTapSpacing * (tap.y * kTileSide + tap.x);
     const vec4 light = tapLight(index);
+    const float exponent = guides[i] - abs(light.y - own.y) * falloff;
+    const float weight = tileLobes[index].w > 0.0 ? (i == 4 ? 1.0 : exp2(exponent)) : 0.0;
+    sum += weight * light.xyz;
+    weights += weight;
 #ifdef FIRST
     const vec2 sampled = tileSamples[index];
-    const float square = (sampled.x >= 0.0 ? sampled.x : deviation * deviation) * sampled.y;
+    variance += weight * weight * (sampled.x >= 0.0 ? sampled.x : deviation * deviation) * sampled.y;
 #else
-    const float square = light.a * light.a;
+    const float weighted = weight * light.w;
+    variance += weighted * weighted;
 #endif
-    const float exponent = guides[i] - abs(luminance(light.rgb) - ownLuminance) * falloff;
-    const float weight = tileLobes[index].w > 0.0 ? (i == 4 ? 1.0 : exp2(exponent)) : 0.0;
-    sum += weight * light.rgb;
-    variance += weight * weight * square;
-    weights += weight;
   }
   store(p, weights > 0.0 ? vec4(sum, sqrt(variance)) / weights : vec4(0.0, 0.0, 0.0, kNoSample));
 }

@@ -33,9 +33,9 @@ struct OwnLobe {
   float perDepth;  // Factor of another pixel's ray, per depth.
   vec3 direction;
   LobeReach reach;
-  float falloff;          // The weight is 2^(-falloff a^2) at an angle of a between the lobes,
-  float widthFalloff;     // and so for a difference a between their half angles.
-  float distanceFalloff;  // And 2^-distanceFalloff per octave between the distances.
+  float falloff;          // The weight is 2^(-falloff a^2 / 2) at a chord of a between the lobes' directions,
+  float widthFalloff;     // 2^(-widthFalloff a^2) for a difference a between their half angles,
+  float distanceFalloff;  // and 2^-distanceFalloff per octave between the distances.
   // Distance from the plane: depth x (product + slope . offset) - planeOffset.
   float product;
   vec2 slope;
@@ -52,7 +52,7 @@ OwnLobe ownLobe(ivec2 p, float z, uvec2 reflector, vec3 direction, LobeReach rea
   const bool mirror = hasLight && isMirror(reach);
   const vec3 normal = unpackLongNormal(reflector.x);
   const float scale = kLog2OfE / kPlaneTolerance, offset = scale * dot(normal, ray);
-  return OwnLobe(-nearness * ray, ray.xy, nearness / z, direction, reach, mirror ? widest : narrowest, narrowest,
+  return OwnLobe(-nearness * ray, ray.xy, nearness / z, direction, reach, 2.0 * (mirror ? widest : narrowest), narrowest,
                  mirror ? kDistanceFalloff : 0.0, offset / z, normal.xy * frame.rayFromPixel.xy * (scale / z), offset);
 }
 
@@ -68,11 +68,12 @@ float lobeExponent(OwnLobe own, vec2 d, vec4 lobe, LobeReach reach) {
   // In units of the distance of what is reflected.
   const float there = lobe.w * own.perDepth;
   const vec3 way = lobe.xyz + own.base + vec3(own.ray + d * frame.rayFromPixel.xy, -1.0) * there;
-  // Squared chord of the angle.
-  const float turned = 2.0 - 2.0 * dot(way, own.direction) * inversesqrt(max(dot(way, way), 1e-20));
+  const float cosine = dot(way, own.direction) * inversesqrt(dot(way, way) + 1e-20);
   const float wider = reach.angle - own.reach.angle, nearer = abs(reach.nearness - own.reach.nearness);
   const float distance = abs(lobe.w * (own.product + dot(own.slope, d)) - own.planeOffset);
-  return -own.falloff * max(turned, 0.0) - own.widthFalloff * (wider * wider) - own.distanceFalloff * nearer - distance;
+  // The squared chord of an angle is 2 - 2 cos.
+  const float turned = own.falloff * cosine - own.falloff;
+  return turned - own.widthFalloff * (wider * wider) - own.distanceFalloff * nearer - distance;
 }
 
 #endif

@@ -42,10 +42,12 @@ struct Reflector {
   float roughness;
 };
 
+const float kNoSample = -1.0;  // In place of one over a distance.
+
 // What the pixels of a work group show, and those around it.
 const int kTileSide = int(gl_WorkGroupSize.x) + 2;
 shared float tileDepths[kTileSide * kTileSide];  // 0 outside the image.
-shared vec4 tileNormals[kTileSide * kTileSide];  // Shading normal; distance of what is reflected.
+shared vec4 tileNormals[kTileSide * kTileSide];  // Shading normal; one over the distance of what is reflected.
 
 // Shading normal and view depth of a pixel, as guides hold them; depth 0: there is no surface.
 #ifdef HOST_SURFACES
@@ -66,8 +68,9 @@ void fillTile() {
     const ivec2 there = first + ivec2(i % kTileSide, i / kTileSide);
     const ivec2 q = clamp(there, ivec2(0), pictureSize() - 1);
     const vec4 seen = normalAndDepthAt(q);
+    const float distance = texelFetch(lighting, q, 0).a;
     tileDepths[i] = q == there ? seen.w : 0.0;
-    tileNormals[i] = vec4(seen.xyz, texelFetch(lighting, q, 0).a);
+    tileNormals[i] = vec4(seen.xyz, distance > 0.0 ? inverseDistance(distance) : kNoSample);
   }
   barrier();
 }
@@ -96,11 +99,14 @@ bool areOnOneSurface(vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
   return facing && abs(dot(b - a, normalA + normalB)) <= -2.0 * constants.planeTolerance * a.z;
 }
 
-// Whether the pixel `offset` away from `p` shows the surface of `own`, and where.
-bool showsSurface(ivec2 p, ivec2 offset, Reflector own, out vec3 position) {
+// Whether the pixel `offset` away lies on the tangent plane of `own` and faces as it does.
+bool showsSurface(ivec2 offset, Reflector own) {
   const int i = inTile(offset);
-  position = rayThrough(frame.rayFromPixel, pixelCentre(p + offset)) * tileDepths[i];
-  return tileDepths[i] > 0.0 && areOnOneSurface(own.position, own.normal, position, tileNormals[i].xyz);
+  // The product of a normal and the view ray is linear over the image.
+  const float product = dot(own.normal, own.position) / -own.position.z;
+  const float there = tileDepths[i] * (product + dot(own.normal.xy * frame.rayFromPixel.xy, vec2(offset)));
+  const bool near = abs(there + own.position.z * product) <= constants.planeTolerance * -own.position.z;
+  return tileDepths[i] > 0.0 && near && dot(own.normal, tileNormals[i].xyz) >= constants.normalThreshold;
 }
 
 // Depth of a pixel over the distances that the samples of the 3 x 3 pixels on the same surface have.
@@ -115,18 +121,16 @@ const ReflectedSamples kNoReflectedSamples = ReflectedSamples(0.0, 0.0, -1.0, iv
 ReflectedSamples samplesAround(ivec2 p, Reflector own) {
   float nearest = 0.0, farthest = kLargestHalf, sum = 0.0, count = 0.0;
   ivec2 offsetOfNearest = ivec2(0);
-  vec3 position;
   for (int i = 0; i < 9; ++i) {
     const ivec2 offset = ivec2(i % 3, i / 3) - 1;
-    if (!showsSurface(p, offset, own, position)) continue;
-    const float distance = tileNormals[inTile(offset)].w;
-    if (!(distance > 0.0)) continue;
-    const float nearness = nearnessOf(distance, -own.position.z);
+    const float inverse = tileNormals[inTile(offset)].w;
+    const bool counts = showsSurface(offset, own) && inverse != kNoSample;
+    const float nearness = counts ? nearnessOf(inverse, -own.position.z) : 0.0;
     if (nearness > nearest) offsetOfNearest = offset;
     nearest = max(nearest, nearness);
-    farthest = min(farthest, nearness);
+    farthest = counts ? min(farthest, nearness) : farthest;
     sum += nearness;
-    count += 1.0;
+    count += counts ? 1.0 : 0.0;
   }
   return ReflectedSamples(nearest, farthest, count > 0.0 ? sum / count : -1.0, p + offsetOfNearest);
 }
@@ -222,6 +226,14 @@ vec3 missOf(vec3 object, vec3 position, vec3 normal) {
   return reflect(seen, n) - way * inversesqrt(max(dot(way, way), 1e-20));
 }
 
+// Whether normals turn by less from pixel to pixel than view rays do: then, the mirror's image is that of a flat one.
+bool isFlat() {
+  const vec3 across = tileNormals[inTile(ivec2(1, 0))].xyz - tileNormals[inTile(ivec2(-1, 0))].xyz;
+  const vec3 down = tileNormals[inTile(ivec2(0, 1))].xyz - tileNormals[inTile(ivec2(0, -1))].xyz;
+  const float perPixel = 2.0 * frame.rayFromPixel.y;
+  return max(dot(across, across), dot(down, down)) < perPixel * perPixel;
+}
+
 // A place in the previous image where the light may have been.
 struct Candidate {
   vec2 position;
@@ -288,13 +300,13 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
     const vec3 object = own.position + distance * reflect(seen, own.normal);
     const vec3 moved = motionOfReflected(own, result.samples);
     const vec3 objectBefore = previousPosition(frame.previousViewFromView, object + moved);
-    Candidate best = candidateAt(ofSurface, sought, objectBefore);
-    if (own.roughness <= kSharpUpTo) {
+    vec2 start = ofSurface;
+    if (own.roughness <= kSharpUpTo && isFlat()) {
       // Objects that move carry their images along, and so do mirrors.
       const vec3 image = own.position + distance * seen + reflect(moved, own.normal);
-      const vec2 offset = pixelBefore(image) - pixelBefore(own.position);
-      best = nearer(best, candidateAt(ofSurface + offset, sought, objectBefore));
+      start += pixelBefore(image) - pixelBefore(own.position);
     }
+    Candidate best = candidateAt(start, sought, objectBefore);
     if (best.before.whole)
       best = nearer(best, candidateAt(best.position + newtonStep(best, objectBefore), sought, objectBefore));
     result.followed = best.position != ofSurface;
@@ -318,8 +330,8 @@ HistoryTaps tapsOf(ivec2 p, ReflectionMotion m) {
 // Depth of a pixel over the distance of what it reflects, by this frame's samples; below 0 without any. A rough surface
 // reflects many things, and the pixel's own sample shows one of them by chance.
 float nearnessAt(Reflector own, ReflectionMotion m) {
-  const float distance = tileNormals[inTile(ivec2(0))].w;
-  const float sharp = distance > 0.0 ? nearnessOf(distance, -own.position.z) : -1.0;
+  const float inverse = tileNormals[inTile(ivec2(0))].w;
+  const float sharp = inverse == kNoSample ? inverse : nearnessOf(inverse, -own.position.z);
   return own.roughness <= kSharpUpTo ? sharp : m.samples.nearness;
 }
 

@@ -133,7 +133,7 @@ TemporalMoments momentsWith(ivec2 p, float z, TemporalMoments m, vec4 noisy) {
   const float momentSamples = min(m.samples, constants.maxMomentHistory);
   addSample(m, clampedRadiance(noisy.rgb), 1.0 / m.samples, 1.0 / momentSamples);
 #ifdef SPECULAR
-  m.nearness = mix(m.nearness, nearnessOf(noisy.a, z), 1.0 / m.samples);
+  m.nearness = mix(m.nearness, nearnessOf(inverseDistance(noisy.a), z), 1.0 / m.samples);
 #endif
   return m;
 }

@@ -78,11 +78,27 @@ class Search {
     result_.undecided |= close(cosine, settings_.thresholds.normalThreshold) || close(distance, most);
     return cosine >= double(settings_.thresholds.normalThreshold) && distance <= most;
   }
-  std::optional<Mirror> neighbour(const Mirror& own, glm::ivec2 offset) {
+  /// Whether a neighbour lies on the pixel's tangent plane and faces as it does.
+  bool continues(const Mirror& own, glm::ivec2 offset) {
     const glm::ivec2 q = p_ + offset;
-    if (!guides_.contains(q) || guides_[q].depth == 0.0) return std::nullopt;
+    if (!guides_.contains(q) || guides_[q].depth == 0.0) return false;
     const Mirror found = mirrorAt(q);
-    return oneSurface(own, found) ? std::optional(found) : std::nullopt;
+    const double cosine = glm::dot(own.normal, found.normal);
+    const double distance = std::abs(glm::dot(found.position - own.position, own.normal)) / -own.position.z;
+    const double most = settings_.thresholds.planeTolerance;
+    result_.undecided |= close(cosine, settings_.thresholds.normalThreshold) || close(distance, most);
+    return cosine >= double(settings_.thresholds.normalThreshold) && distance <= most;
+  }
+  /// Whether normals turn by less from pixel to pixel than view rays do. Beyond the border, the pixel there counts.
+  bool isFlat() {
+    const auto normalAt = [&](glm::ivec2 q) {
+      return octahedralDecode(guides_[glm::clamp(q, glm::ivec2(0), guides_.size() - 1)].features);
+    };
+    const double across = glm::distance(normalAt(p_ + glm::ivec2(1, 0)), normalAt(p_ - glm::ivec2(1, 0)));
+    const double down = glm::distance(normalAt(p_ + glm::ivec2(0, 1)), normalAt(p_ - glm::ivec2(0, 1)));
+    const double most = 2.0 * std::abs(double(frame_.constants.rayFromPixel.y));
+    result_.undecided |= close(std::max(across, down), most);
+    return std::max(across, down) < most;
   }
   Distances distancesAround(const Mirror& own);
   /// Where the nearest point of those was, minus where it is, in view space.
@@ -117,7 +133,7 @@ Distances Search::distancesAround(const Mirror& own) {
   Distances found;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
-      if (!neighbour(own, {x, y})) continue;
+      if (!continues(own, {x, y})) continue;
       const double d = frame_.lightAlpha[p_ + glm::ivec2(x, y)];
       if (!(d > 0.0)) continue;
       const double known = d < kLargestHalf ? std::max(d, -1e-3 * own.position.z) : kInfinity;
@@ -199,21 +215,12 @@ Reflected Search::find() {
     return there ? glm::length(miss(*there, object)) : kInfinity;
   };
   glm::dvec2 place = surfaceAt;
-  double least = missAt(place);
-  bool newton = whole;
-  const auto consider = [&](glm::dvec2 position) {
-    const double found = missAt(position);
-    const bool alike = std::abs(found - least) <= kCloseMiss * least + kRoundingOfMiss;
-    result_.undecided |= alike && (place == surfaceAt || glm::distance(position, place) > kSamePlace);
-    if (found >= least) return;
-    least = found;
-    place = position;
-    newton = whole;
-  };
-  if (own.roughness <= 0.1) {
+  if (own.roughness <= 0.1 && isFlat()) {
     const glm::dvec3 image = own.position + distance * glm::normalize(own.position) + glm::reflect(moved, own.normal);
-    consider(surfaceAt + shown(before(image)) - shown(before(own.position)));
+    place += shown(before(image)) - shown(before(own.position));
   }
+  double least = missAt(place);
+  const bool newton = whole;
   if (newton) {
     // Newton's method on the miss, with differences over a pixel.
     const auto missBeyond = [&](glm::dvec2 beyond) { return miss(*shownAt(place, surface, whole, beyond), object); };
@@ -222,7 +229,14 @@ Reflected Search::find() {
     const glm::dvec3 y = missBeyond({0.0, 1.0}) - m;
     const glm::dmat2 normal(glm::dot(x, x), glm::dot(x, y), glm::dot(x, y), glm::dot(y, y));
     const glm::dvec2 step = -glm::inverse(normal) * glm::dvec2(glm::dot(x, m), glm::dot(y, m));
-    consider(place + step * std::min(1.0, 8.0 / glm::length(step)));
+    const glm::dvec2 corrected = place + step * std::min(1.0, 8.0 / glm::length(step));
+    const double found = missAt(corrected);
+    const bool alike = std::abs(found - least) <= kCloseMiss * least + kRoundingOfMiss;
+    result_.undecided |= alike && (place == surfaceAt || glm::distance(corrected, place) > kSamePlace);
+    if (found < least) {
+      least = found;
+      place = corrected;
+    }
   }
   result_.followed = place != surfaceAt;
   if (result_.followed) result_.motion = place - jitter - pixelCentre(p_);
