@@ -34,15 +34,11 @@ void checkLight(const LightPattern& light, const HostConventions& host) {
   }
 }
 
-/// The kinds of light that a graph has.
-struct LightKinds {
-  bool diffuse = false;
-  bool specular = false;
-
-  [[nodiscard]] bool have(const HostInput& input) const {
-    return input.of == HostInput::Of::EveryLight || (input.of == HostInput::Of::DiffuseLight ? diffuse : specular);
-  }
-};
+/// Whether a graph with these kinds of light has the input.
+bool reads(LightKinds kinds, const HostInput& input) {
+  if (input.of == HostInput::Of::EveryLight) return true;
+  return input.of == HostInput::Of::DiffuseLight ? kinds.diffuse : kinds.specular;
+}
 
 /// The number of channels of an input that are read.
 std::uint32_t channelsRead(const HostInput& input, const InputConventions& conventions, const HostConventions& host) {
@@ -60,7 +56,7 @@ DenoiserInputs importAll(fg::Graph& graph, fg::Extent extent, const InputConvent
   DenoiserInputs inputs;
   for (std::size_t i = 0; i < kHostInputs.size(); ++i) {
     const HostInput& input = kHostInputs[i];
-    if (!kinds.have(input)) continue;
+    if (!reads(kinds, input)) continue;
     const VkFormat usual = input.optional ? VK_FORMAT_UNDEFINED : input.format;
     const VkFormat format = formats.empty() ? usual : formats[i];
     if (input.optional && format == VK_FORMAT_UNDEFINED) continue;

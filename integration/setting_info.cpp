@@ -35,8 +35,9 @@ class Describer final : public SettingVisitor {
     setting.kind = kind;
     setting.value = std::move(value);
     setting.unit = info.unit;
-    setting.description = info.description;
+    setting.description = descriptionOf(info);
     setting.source = info.source;
+    setting.lights = info.lights;
     return setting;
   }
   void addNumber(const SettingInfo& info, SettingKind kind, std::string value) {

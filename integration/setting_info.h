@@ -26,6 +26,7 @@ struct SettingDescription {
   std::string unit;                  ///< Empty for a pure number.
   std::string description;           ///< One line.
   std::string source;                ///< Paper and section, or "measured".
+  LightKinds lights;                 ///< That it acts on.
 };
 
 /// All settings in order, with their current values.

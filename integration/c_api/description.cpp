@@ -281,13 +281,19 @@ ListedGraph Description::listStage(std::span<const WalrPortFormat> ports) const 
 
 Description::Named Description::named(std::string_view name) const {
   const OwnName own = withoutLight(name, methods_.size());
-  const std::span all(methods_);
-  return {own.light ? all.subspan(*own.light, 1) : all, own.name};
+  const std::size_t first = own.light.value_or(0);
+  const std::size_t count = own.light ? 1 : methods_.size();
+  LightKinds kinds{false, false};
+  for (const WalrLightKind kind : std::span(lightKinds_).subspan(first, count)) {
+    (kind == WALR_LIGHT_SPECULAR ? kinds.specular : kinds.diffuse) = true;
+  }
+  return {std::span(methods_).subspan(first, count), kinds, own.name};
 }
 
 void Description::set(std::string_view name, std::string_view value) {
   if (stage_ != nullptr) return stage_->set(name, value);
   const Named target = named(name);
+  target.lights.front()->requireEffect(target.name, target.kinds);
   for (const std::unique_ptr<Denoiser>& method : target.lights) method->set(target.name, value);
 }
 

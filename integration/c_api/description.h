@@ -136,6 +136,7 @@ class Description {
   /// What a name of a setting or preset is about.
   struct Named {
     std::span<const std::unique_ptr<Denoiser>> lights;  ///< One, or all; none for a stage.
+    LightKinds kinds;                                   ///< Of these.
     std::string_view name;                              ///< Without `LightNames::settings` before it.
   };
   [[nodiscard]] Named named(std::string_view name) const;

@@ -75,7 +75,8 @@ class PassTypeTable {
             .most = setting.most,
             .choices = choices.data(),
             .choice_count = static_cast<std::uint32_t>(choices.size()),
-            .reserved = 0,
+            .lights = (setting.lights.diffuse ? 1U << WALR_LIGHT_DIFFUSE : 0U) |
+                      (setting.lights.specular ? 1U << WALR_LIGHT_SPECULAR : 0U),
             .unit = setting.unit.c_str(),
             .description = setting.description.c_str(),
             .source = setting.source.c_str()};

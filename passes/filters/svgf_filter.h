@@ -58,10 +58,10 @@ struct SvgfFilterSettings {
     v.visit({"svgf.min-history", "Samples below which the variance is estimated over 7x7 pixels", "frames", 0.0, 256.0,
              "Schied et al. 2017, 4.2"},
             minHistory);
-    v.visit({"svgf.lobe-share",
-             "Specular light: part of the lobe's half angle at which a pixel weighs exp(-1/2); 0: normals weigh alone",
-             "", 0.0, 10.0, "measured"},
-            lobeShare);
+    v.visit(
+        {"svgf.lobe-share", "Part of the lobe's half angle at which a pixel weighs exp(-1/2); 0: normals weigh alone",
+         "", 0.0, 10.0, "measured", kSpecularLight},
+        lobeShare);
     v.visit({"svgf.feedback", "Iterations whose result is the next frame's colour history; at most all of them", "", 0,
              8, "Schied et al. 2017, 4.3: 1"},
             feedback);

@@ -21,7 +21,7 @@ struct PrepareGuidesSettings {
 
   void visit(SettingVisitor& v) {
     v.visit({"guides.albedo-threshold",
-             "Albedo below which, in every channel, a pixel has no diffuse lobe and is treated like sky; 0 leaves the "
+             "Albedo, of the light's lobe, below which in every channel a pixel is treated like sky; 0 leaves the "
              "albedo unread",
              "", 0.0, 1.0, "measured"},
             albedoThreshold);

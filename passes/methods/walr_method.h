@@ -34,21 +34,22 @@ struct WalrSettings {
              "Meunier & Harada 2022, 4.3"},
             spatialOnly);
     guides.visit(v);
-    accumulation.visitAmounts(v);
+    accumulation.visitAmounts(v, kDiffuseLight);
     visitMaxSpecularHistory(v, maxSpecularHistory);
     accumulation.visitStorage(v);
-    v.visit(
+    SettingsOfLight fits(v, kDiffuseLight);
+    fits.visit(
         {"walr.fit-window",
          "Make blocks no larger than 1/43 of the image's height, but at least of 4 pixels; leave out iterations whose "
          "window would span far more than a tenth of the height; widen windows where a sample of light stands for "
          "several pixels",
          "", 0, 1, "measured"},
         fitWindow);
-    occlusion.visit(v);
-    blocks.visit(v);
-    antialiasing.visitAmounts(v);
-    v.visit({"antialiasing.specular-clip-gamma", "Specular light: `antialiasing.clip-gamma`", "standard deviations",
-             0.0, 1e6, "measured"},
+    occlusion.visit(fits);
+    blocks.visit(fits);
+    antialiasing.visitAmounts(v, kDiffuseLight);
+    v.visit({"antialiasing.specular-clip-gamma", "`antialiasing.clip-gamma` of this light", "standard deviations", 0.0,
+             1e6, "measured", kSpecularLight},
             specularClipGamma);
     antialiasing.visitStorage(v);
   }

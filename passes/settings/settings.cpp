@@ -201,8 +201,30 @@ class Lister final : public SettingVisitor {
  private:
   void add(const SettingInfo& info, std::string value, std::string range) {
     list.push_back({std::string(info.name), std::move(value), std::move(range), std::string(info.unit),
-                    std::string(info.description), std::string(info.source)});
+                    descriptionOf(info), std::string(info.source)});
   }
+};
+
+/// Finds the lights that the setting of the given name acts on.
+class LightFinder final : public SettingVisitor {
+ public:
+  explicit LightFinder(std::string_view name) : name_(name) {}
+
+  void visit(const SettingInfo& info, float& /*value*/) override { find(info); }
+  void visit(const SettingInfo& info, std::uint32_t& /*value*/) override { find(info); }
+  void visit(const SettingInfo& info, bool& /*value*/) override { find(info); }
+  void choice(const SettingInfo& info, std::span<const std::string_view> /*names*/, std::uint32_t& /*value*/) override {
+    find(info);
+  }
+
+  LightKinds lights;
+
+ private:
+  void find(const SettingInfo& info) {
+    if (info.name == name_) lights = info.lights;
+  }
+
+  std::string_view name_;
 };
 
 class RangeChecker final : public SettingVisitor {
@@ -217,10 +239,27 @@ class RangeChecker final : public SettingVisitor {
 
 }  // namespace
 
+std::string descriptionOf(const SettingInfo& info) {
+  const std::string_view kind = !info.lights.specular  ? "Diffuse light: "
+                                : !info.lights.diffuse ? "Specular light: "
+                                                       : "";
+  return std::string(kind) + std::string(info.description);
+}
+
 void Configurable::set(std::string_view name, std::string_view value) {
   Setter setter(name, value);
   visitSettings(setter);
   if (!setter.found()) rejectUnknown(name, setter.known());
+}
+
+void Configurable::requireEffect(std::string_view name, LightKinds lights) {
+  LightFinder finder(name);
+  visitSettings(finder);
+  if (haveInCommon(finder.lights, lights)) return;
+  throw std::invalid_argument(
+      "setting " + std::string(name) + " acts on " +
+      (finder.lights.diffuse ? "diffuse light only, and only specular" : "specular light only, and only diffuse") +
+      " light is denoised here: leave it out");
 }
 
 std::vector<SettingText> Configurable::settings() {

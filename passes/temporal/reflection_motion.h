@@ -15,22 +15,22 @@ struct ReflectionMotionSettings {
   float historyPerLobe = 0.25F;
 
   void visit(SettingVisitor& v) {
-    v.visit({"reflection.surface-from",
-             "Specular light: linear roughness from which its history moves with the surface alone; 0: everywhere", "",
-             0.0, 1.0, "measured"},
-            surfaceFrom);
+    v.visit(
+        {"reflection.surface-from", "Linear roughness from which history moves with the surface alone; 0: everywhere",
+         "", 0.0, 1.0, "measured", kSpecularLight},
+        surfaceFrom);
     v.visit({"reflection.history-per-lobe",
-             "Specular light: longest history where the reflected ray of the previous frame misses by the lobe's half "
-             "angle; more where it misses by less",
-             "frames", 0.0, 255.0, "measured"},
+             "Longest history where the reflected ray of the previous frame misses by the lobe's half angle; more "
+             "where it misses by less",
+             "frames", 0.0, 255.0, "measured", kSpecularLight},
             historyPerLobe);
   }
 };
 
 /// Visit the length of history of methods that keep another one for specular light than for diffuse light.
 inline void visitMaxSpecularHistory(SettingVisitor& v, float& maxHistory) {
-  v.visit({"accumulation.max-specular-history", "Specular light: `accumulation.max-history`", "frames", 1.0, 255.0,
-           "measured"},
+  v.visit({"accumulation.max-specular-history", "`accumulation.max-history` of this light", "frames", 1.0, 255.0,
+           "measured", kSpecularLight},
           maxHistory);
 }
 

@@ -18,8 +18,8 @@ struct SvgfAccumulationSettings {
   HistoryThresholds thresholds{.planeTolerance = kStrictThresholds.planeTolerance};
 
   void visit(SettingVisitor& v) {
-    v.visit({"accumulation.max-history", "Diffuse light: frames after which the mean colour turns exponential",
-             "frames", 1.0, 255.0, "measured; the paper's alpha of 0.2 is 5"},
+    v.visit({"accumulation.max-history", "Frames after which the mean colour turns exponential", "frames", 1.0, 255.0,
+             "measured; the paper's alpha of 0.2 is 5", kDiffuseLight},
             maxHistory);
     v.visit({"accumulation.max-moment-history", "Frames after which the luminance moments turn exponential", "frames",
              1.0, 255.0, "Schied et al. 2017, 4.2: alpha 0.2"},

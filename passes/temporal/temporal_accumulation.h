@@ -28,14 +28,15 @@ struct TemporalAccumulationSettings {
   AntilagSettings antilag = {};
   LightStorage storage = LightStorage::Half;
 
-  void visitMaxHistory(SettingVisitor& v) {
+  /// @param lights that follow it; the other kind has a setting of its own
+  void visitMaxHistory(SettingVisitor& v, LightKinds lights = {}) {
     v.visit({"accumulation.max-history", "Frames after which the cumulative mean turns exponential", "frames", 1.0,
-             255.0, "Meunier & Harada 2022, 4.2"},
+             255.0, "Meunier & Harada 2022, 4.2", lights},
             maxHistory);
   }
   /// For methods that have one way to test and to read history.
-  void visitAmounts(SettingVisitor& v) {
-    visitMaxHistory(v);
+  void visitAmounts(SettingVisitor& v, LightKinds followMaxHistory = {}) {
+    visitMaxHistory(v, followMaxHistory);
     visitThresholds(v, "accumulation.plane-tolerance", "accumulation.normal-threshold", thresholds);
     antilag.visit(v);
   }

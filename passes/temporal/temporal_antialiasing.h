@@ -34,7 +34,8 @@ struct TemporalAntialiasingSettings {
   bool accumulates = false;
 
   /// For methods that have one way to test and to clip history.
-  void visitAmounts(SettingVisitor& v) {
+  /// @param followClipGamma lights that do; the other kind has a setting of its own
+  void visitAmounts(SettingVisitor& v, LightKinds followClipGamma = {}) {
     v.visit({"antialiasing.enabled", "Off leaves temporal anti-aliasing to the host", "", 0, 1,
              "Meunier & Harada 2022, 4.4"},
             enabled);
@@ -42,7 +43,7 @@ struct TemporalAntialiasingSettings {
              255.0, "Meunier & Harada 2022, 4.4"},
             maxHistory);
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
-             "Meunier & Harada 2022, 4.4"},
+             "Meunier & Harada 2022, 4.4", followClipGamma},
             clipGamma);
     visitThresholds(v, "antialiasing.plane-tolerance", "antialiasing.normal-threshold", thresholds);
     v.visit({"antialiasing.object-ids", "Tell surfaces apart by the host's object numbers, too, where it gives them",

@@ -53,7 +53,7 @@ std::vector<Variant> parseMethods(const std::string& list) {
   return variants;
 }
 
-Variant parseVariant(const std::string& text) {
+Variant parseVariant(const std::string& text, LightKinds lights) {
   const auto [name, rest] = splitOnce(text, '=');
   if (!isFileName(name) || rest.empty()) {
     throw std::invalid_argument(
@@ -63,7 +63,8 @@ Variant parseVariant(const std::string& text) {
   Variant variant = methodVariant(parts.front());
   variant.name = name;
   for (std::size_t i = 1; i < parts.size(); ++i) variant.settings.push_back(splitOnce(parts[i], '='));
-  makeVariant(variant);
+  const std::unique_ptr<Denoiser> method = makeVariant(variant);
+  for (const auto& [setting, value] : variant.settings) method->requireEffect(setting, lights);
   return variant;
 }
 

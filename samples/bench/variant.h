@@ -34,8 +34,9 @@ std::vector<Variant> allMethods();
 std::vector<Variant> parseMethods(const std::string& list);
 
 /// Parse "NAME=METHOD[:PRESET][,SETTING=VALUE]...": a method and settings under a chosen name.
-/// @throws std::invalid_argument naming the fault
-Variant parseVariant(const std::string& text);
+/// @param lights that are denoised
+/// @throws std::invalid_argument naming the fault, which may be a setting without effect on these lights
+Variant parseVariant(const std::string& text, LightKinds lights = kDiffuseLight);
 
 /// Create the method with the variant's settings.
 /// @throws std::invalid_argument naming the unknown method, preset or setting

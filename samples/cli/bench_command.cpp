@@ -57,7 +57,8 @@ std::vector<Variant> chosenVariants(const BenchArguments& arguments) {
     if (arguments.methods == "all" && arguments.sequence.light.onlySpecular()) {
       std::erase_if(variants, [](const Variant& variant) { return !makeVariant(variant)->takesSpecularLight(); });
     }
-    for (const std::string& text : arguments.variants) variants.push_back(parseVariant(text));
+    const LightKinds lights = arguments.sequence.light.onlySpecular() ? kSpecularLight : kDiffuseLight;
+    for (const std::string& text : arguments.variants) variants.push_back(parseVariant(text, lights));
     return withBaseline(std::move(variants));
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());

@@ -108,6 +108,21 @@ std::string viewList(const std::vector<ViewInfo>& views) {
   return text;
 }
 
+/// The lights that a value of --light names.
+std::vector<Light> lightsOf(const std::string& light) {
+  std::vector<Light> lights;
+  if (light == "specular") return {Light::Specular};
+  if (light == "all") return {Light::Indirect, Light::Direct, Light::Specular};
+  if (light != "direct") lights.push_back(Light::Indirect);
+  if (light != "indirect") lights.push_back(Light::Direct);
+  return lights;
+}
+
+LightKinds kindsOf(std::span<const Light> lights) {
+  const auto isSpecular = [](Light light) { return light == Light::Specular; };
+  return {.diffuse = !std::ranges::all_of(lights, isSpecular), .specular = std::ranges::any_of(lights, isSpecular)};
+}
+
 /// @throws UsageError if the method does not take a light
 std::vector<ViewInfo> viewsOf(const DenoiseOptions& options, Denoiser& method) {
   try {
@@ -119,7 +134,8 @@ std::vector<ViewInfo> viewsOf(const DenoiseOptions& options, Denoiser& method) {
 }
 
 void listViews(const DenoiseOptions& options) {
-  const std::vector<ViewInfo> views = viewsOf(options, *makeMethod(options.method));
+  const LightKinds lights = kindsOf(lightsOf(options.light.empty() ? "indirect" : options.light));
+  const std::vector<ViewInfo> views = viewsOf(options, *makeMethod(options.method, lights));
   std::cout << "method " << options.method.name << " has " << (views.empty() ? "no views" : "these views")
             << viewList(views) << '\n';
 }
@@ -165,20 +181,10 @@ std::string chosenLight(const DenoiseOptions& options) {
   return options.light;
 }
 
-/// The lights that a value of --light names.
-std::vector<Light> lightsOf(const std::string& light) {
-  std::vector<Light> lights;
-  if (light == "specular") return {Light::Specular};
-  if (light == "all") return {Light::Indirect, Light::Direct, Light::Specular};
-  if (light != "direct") lights.push_back(Light::Indirect);
-  if (light != "indirect") lights.push_back(Light::Direct);
-  return lights;
-}
-
 /// The methods of the lights, with their settings.
 std::vector<LightMethod> methodsOf(const MethodOptions& options, std::span<const Light> lights) {
   std::vector<LightMethod> methods;
-  for (const Light light : lights) methods.push_back({light, makeMethod(options)});
+  for (const Light light : lights) methods.push_back({light, makeMethod(options, kindsOf(lights))});
   return methods;
 }
 

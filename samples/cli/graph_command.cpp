@@ -93,13 +93,13 @@ void listSettings(Denoiser& method) {
   }
 }
 
-/// The method of the second light; null if there is one light.
+/// The method of the second diffuse light; null if there is none.
 /// @throws UsageError if the method has no guides that lights could share
-std::unique_ptr<Denoiser> makeSecond(const GraphOptions& options) {
+std::unique_ptr<Denoiser> makeSecond(const GraphOptions& options, LightKinds lights) {
   if (options.secondPreset.empty()) return nullptr;
   MethodOptions chosen = options.method;
   chosen.preset = options.secondPreset;
-  std::unique_ptr<Denoiser> second = makeMethod(chosen);
+  std::unique_ptr<Denoiser> second = makeMethod(chosen, lights);
   if (!second->sharesGuides()) {
     throw UsageError("--second-preset: method " + options.method.name + " has no guides that lights could share");
   }
@@ -125,14 +125,15 @@ void printGraph(const GraphOptions& options) {
     return;
   }
   const fg::Extent extent = parseSize(options.size);
-  const std::unique_ptr<Denoiser> method = makeMethod(options.method);
+  const LightKinds kinds{.diffuse = options.lights != "specular", .specular = options.lights != "diffuse"};
+  const std::unique_ptr<Denoiser> method = makeMethod(options.method, kinds);
   if (options.listSettings) {
     listSettings(*method);
     return;
   }
   InputConventions conventions;
   conventions.light = options.light;
-  const std::unique_ptr<Denoiser> second = makeSecond(options);
+  const std::unique_ptr<Denoiser> second = makeSecond(options, kinds);
   const std::vector<DenoisedLight> lights = lightsOf(options, *method, second.get());
   const DenoiseGraph declared = declareDenoiseGraph(lights, extent, conventions, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());

@@ -51,7 +51,7 @@ void addMethodOptions(CLI::App& command, MethodOptions& options) {
       ->type_name("NAME=VALUE");
 }
 
-std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options) {
+std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options, LightKinds lights) {
   std::unique_ptr<Denoiser> method = makeDenoiser(options.name);
   if (!options.preset.empty()) {
     applyOption("--preset " + options.preset, [&] { method->usePreset(options.preset); });
@@ -62,7 +62,11 @@ std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options) {
     if (split == std::string::npos) {
       throw UsageError("--set " + setting + ": give NAME=VALUE");
     }
-    applyOption("--set " + setting, [&] { method->set(setting.substr(0, split), setting.substr(split + 1)); });
+    const std::string name = setting.substr(0, split);
+    applyOption("--set " + setting, [&] {
+      method->requireEffect(name, lights);
+      method->set(name, setting.substr(split + 1));
+    });
   }
   // Settings that contradict each other are found when the method is declared. The size does not matter for that.
   applyOption("--method " + options.name, [&] {

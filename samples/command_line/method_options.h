@@ -24,9 +24,10 @@ struct MethodOptions {
 void addMethodOptions(CLI::App& command, MethodOptions& options);
 
 /// Create the method with its preset and settings.
-/// @throws UsageError naming an unknown preset, or a setting that is unknown, out of range or not of the form
-/// name=value
-std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options);
+/// @param lights that are denoised
+/// @throws UsageError naming an unknown preset, or a setting that is unknown, out of range, not of the form name=value,
+/// or without effect on these lights
+std::unique_ptr<Denoiser> makeMethod(const MethodOptions& options, LightKinds lights);
 
 /// The preset whose values all settings of a method have now; nullopt if there is none.
 std::optional<std::string> presetInUse(std::string_view methodName, Denoiser& method);

@@ -139,9 +139,10 @@ void run(HostOptions& options) {
     throw UsageError("--record " + options.record.string() + ": give a file that ends in .webp");
   }
   if (options.tracer.scene.empty()) options.tracer.scene = builtInScene();
-  std::unique_ptr<Denoiser> method = makeMethod(options.method);
+  const LightKinds lights{.diffuse = true, .specular = options.tracer.specular};
+  std::unique_ptr<Denoiser> method = makeMethod(options.method, lights);
   const MethodOptions compare = parseCompare(options.compare.empty() ? "none" : options.compare);
-  std::unique_ptr<Denoiser> compared = makeMethod(compare);
+  std::unique_ptr<Denoiser> compared = makeMethod(compare, lights);
   if (!options.compare.empty()) options.view = "compare";
   const bool window = opensWindow(options);
 #ifdef WALR_HOST_WINDOW

@@ -1,5 +1,6 @@
 #include "tests/integration/random_arguments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -175,6 +176,12 @@ void RandomInfo::chooseDevice(Dice& dice, Expectation& expected, const RandomHos
   info_.value.device = device_->get();
 }
 
+std::vector<WalrLightKind> RandomInfo::lights() const {
+  std::vector<WalrLightKind> kinds{info_.value.light_kind};
+  if (info_.value.light_count == 2) kinds.push_back(info_.value.second_light_kind);
+  return kinds;
+}
+
 std::uint32_t randomLength(Dice& dice, Expectation& expected) {
   if (!dice.oneIn(24)) return dice.of({1U, 2U, 7U, 16U, 33U, 64U});
   expected.fails(WALR_ERROR_INVALID_ARGUMENT);
@@ -193,6 +200,17 @@ WalrSettingValue randomSetting(Dice& dice, Expectation& expected, const WalrPass
   }
   storage = validValue(dice, expected, setting);
   return {setting.name, storage.c_str()};
+}
+
+bool actsOn(const WalrPassType* type, const char* setting, std::span<const WalrLightKind> lights) {
+  if (type == nullptr || setting == nullptr || type->method == VK_FALSE) return true;
+  for (const WalrSetting* const each : std::span(type->settings, type->setting_count)) {
+    if (std::strcmp(each->name, setting) != 0) continue;
+    return std::ranges::any_of(lights, [&](WalrLightKind light) {
+      return (each->lights & 1U << (light == WALR_LIGHT_SPECULAR ? WALR_LIGHT_SPECULAR : WALR_LIGHT_DIFFUSE)) != 0;
+    });
+  }
+  return true;
 }
 
 const WalrCamera* randomCamera(Dice& dice, Expectation& expected, bool orthographic, WalrCamera& storage) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,7 @@ class RandomInfo {
   [[nodiscard]] const WalrDenoiserInfo* get() const { return &info_.value; }
   /// Null if the name is wrong.
   [[nodiscard]] const WalrPassType* type() const { return type_; }
+  [[nodiscard]] std::vector<WalrLightKind> lights() const;
   [[nodiscard]] bool rectangle() const { return info_.value.conventions != nullptr && conventions_.value.rectangle; }
   [[nodiscard]] bool orthographic() const {
     return info_.value.conventions != nullptr && conventions_.value.orthographic;
@@ -71,6 +73,9 @@ std::uint32_t randomLength(Dice& dice, Expectation& expected);
 /// A name and a value for a setting of a pass type, mostly right ones. The name may be null, and the value too.
 /// @param type null: no name is right
 WalrSettingValue randomSetting(Dice& dice, Expectation& expected, const WalrPassType* type, std::string& storage);
+
+/// Whether a setting of a method acts on one of these lights; also if there is no such setting, and for stages.
+bool actsOn(const WalrPassType* type, const char* setting, std::span<const WalrLightKind> lights);
 
 /// A camera, or null.
 const WalrCamera* randomCamera(Dice& dice, Expectation& expected, bool orthographic, WalrCamera& storage);

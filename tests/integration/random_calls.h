@@ -26,7 +26,7 @@ struct ModelledDenoiser {
   bool counters = false;
   bool rectangle = false;
   bool orthographic = false;
-  bool twoLights = false;
+  std::vector<WalrLightKind> lights;
   bool allocates = false;  ///< With an allocator that fails now and then.
   bool changed = false;    ///< Its settings may be at odds with each other, or with its view.
 };

@@ -74,7 +74,7 @@ void RandomCalls::createDenoiser() {
                              .counters = info.get()->counters != 0,
                              .rectangle = info.rectangle(),
                              .orthographic = info.orthographic(),
-                             .twoLights = info.get()->light_count == 2,
+                             .lights = info.lights(),
                              .allocates = allocates,
                              // Settings without history have no history length, most methods no light direction and
                              // no expected error, and presets of two lights may need other guides.
@@ -105,10 +105,16 @@ void RandomCalls::changeSetting() {
   WalrSettingValue setting =
       randomSetting(dice_, expected, picked.model != nullptr ? picked.model->type : nullptr, storage);
   std::string ofSecond;
-  if (setting.name != nullptr && picked.model != nullptr && dice_.oneIn(4)) {
-    ofSecond = std::string("second.") + setting.name;
-    setting.name = ofSecond.c_str();
-    if (!picked.model->twoLights) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+  if (setting.name != nullptr && picked.model != nullptr) {
+    std::span<const WalrLightKind> lights(picked.model->lights);
+    const std::string name = setting.name;
+    if (dice_.oneIn(4)) {
+      ofSecond = "second." + name;
+      setting.name = ofSecond.c_str();
+      if (lights.size() < 2) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
+      lights = lights.last(1);
+    }
+    if (!actsOn(picked.model->type, name.c_str(), lights)) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
   }
   const bool known = picked.model != nullptr && setting.name != nullptr;
   const std::string before = known ? settingOf(picked.handle, setting.name) : "";

@@ -165,7 +165,7 @@ void RandomFrames::record(Dice& dice, CallCheck& check, const ModelledDenoiser& 
     frame.denoised = frame.lighting;  // An input is no output.
     expected.fails();
   }
-  if (!denoiser.twoLights && frame.lighting != nullptr && dice.oneIn(30)) {
+  if (denoiser.lights.size() < 2 && frame.lighting != nullptr && dice.oneIn(30)) {
     frame.second_lighting = frame.lighting;
     expected.fails();
   }

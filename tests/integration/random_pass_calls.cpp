@@ -56,6 +56,7 @@ void RandomCalls::createPasses() {
   for (std::uint32_t i = 0; i < 2; ++i) {
     if (!dice_.oneIn(4)) break;
     settings[i] = randomSetting(dice_, expected, denoiser.type(), text[i]);
+    if (!actsOn(denoiser.type(), settings[i].name, denoiser.lights())) expected.fails(WALR_ERROR_INVALID_ARGUMENT);
     info.value.setting_count = i + 1;
   }
   info.value.settings = settings;
@@ -91,14 +92,13 @@ void RandomCalls::createPasses() {
                        .method = denoiser.get()->method,
                        .width = denoiser.get()->width,
                        .height = denoiser.get()->height,
-                       .lights = {denoiser.get()->light_kind},
+                       .lights = denoiser.lights(),
                        .rectangle = denoiser.rectangle(),
                        .orthographic = denoiser.orthographic(),
                        .lint = denoiser.get()->lint != 0 && host_.vulkan.device != nullptr,
                        .counters = denoiser.get()->counters != 0 && host_.vulkan.device != nullptr,
                        .recordable = host_.vulkan.device != nullptr,
                        .allocates = denoiser.allocates()};
-  if (denoiser.get()->light_count == 2) model.lights.push_back(denoiser.get()->second_light_kind);
   if (dice_.oneIn(2)) walr_get_pass_list(made, &model.list);
   passes_.live.push_back(std::move(model));
 }

@@ -251,6 +251,30 @@ TEST_F(TwoLights, HaveSettingsOfTheirOwn) {
   EXPECT_EQ(api().destroy_denoiser(denoiser), WALR_SUCCESS);
 }
 
+TEST_F(TwoLights, RefuseSettingsThatActOnNeither) {
+  const auto set = [&](const WalrDenoiserInfo& lights, const char* name, const char* value) {
+    WalrDenoiser denoiser = nullptr;
+    require(api().create_denoiser(&lights, &denoiser));
+    const WalrResult result = api().set_setting(denoiser, name, value);
+    const std::string error = result == WALR_SUCCESS ? "" : api().last_error();
+    EXPECT_EQ(api().destroy_denoiser(denoiser), WALR_SUCCESS);
+    return error;
+  };
+  const std::string specularOnly = "acts on specular light only, and only diffuse light is denoised";
+  const std::string diffuseOnly = "acts on diffuse light only, and only specular light is denoised";
+  const WalrDenoiserInfo diffuse = info("walr", kSize);
+  const WalrDenoiserInfo specular = ofLights(diffuse, WALR_LIGHT_SPECULAR);
+  WalrDenoiserInfo both = diffuse;
+  both.light_count = 2;
+  both.second_light_kind = WALR_LIGHT_SPECULAR;
+  EXPECT_NE(set(specular, "blocks.size", "4").find("blocks.size " + diffuseOnly), std::string::npos);
+  EXPECT_NE(set(both, "second.blocks.size", "4").find("blocks.size " + diffuseOnly), std::string::npos);
+  EXPECT_NE(set(diffuse, "antialiasing.specular-clip-gamma", "1").find(specularOnly), std::string::npos);
+  EXPECT_EQ(set(both, "blocks.size", "4"), "");
+  EXPECT_EQ(set(both, "second.antialiasing.specular-clip-gamma", "1"), "");
+  EXPECT_EQ(set(specular, "antialiasing.max-history", "4"), "");
+}
+
 /// The memory that denoisers allocate.
 std::uint64_t allocated(const WalrApi& api, const WalrDenoiserInfo& info) {
   WalrMemory memory{};

@@ -79,7 +79,7 @@ typedef struct WalrSetting {
   double most;                /* Largest value. */
   const char* const* choices; /* Switches and choices: all values. */
   uint32_t choice_count;
-  uint32_t reserved;
+  VkFlags lights;          /* That it acts on: 1 << WalrLightKind of each. */
   const char* unit;        /* "frames", "pixels", "fraction of depth"; empty for a pure number. */
   const char* description; /* One line. */
   const char* source;      /* Paper and section, or "measured". */
@@ -357,7 +357,7 @@ WALR_API WalrResult walr_destroy_denoiser(WalrDenoiser denoiser);
  *   set, and dropped otherwise.
  */
 WALR_API WalrResult walr_resize(WalrDenoiser denoiser, uint32_t width, uint32_t height);
-/* With two lights: sets both, or the second one alone if the name begins with "second.": "second.blocks.residual". */
+/* With two lights: sets both, or the second alone: "second.blocks.residual". Refused if it acts on none of them. */
 WALR_API WalrResult walr_set_setting(WalrDenoiser denoiser, const char* name, const char* value);
 /* Replaces all settings. With two lights: of both, or of the second alone: "second.standard". */
 WALR_API WalrResult walr_use_preset(WalrDenoiser denoiser, const char* name);

@@ -56,7 +56,11 @@ std::optional<std::size_t> choose(const char* label, std::span<const std::string
 /// Makes a widget for each setting, and records whether a value has changed.
 class SettingWidgets : public SettingVisitor {
  public:
+  /// @param lights that are denoised; settings that act on none of them have no widget
+  explicit SettingWidgets(LightKinds lights) : lights_(lights) {}
+
   void visit(const SettingInfo& info, float& value) override {
+    if (!haveInCommon(info.lights, lights_)) return;
     const auto least = static_cast<float>(info.least);
     const auto most = static_cast<float>(info.most);
     if (std::isinf(most)) {
@@ -71,6 +75,7 @@ class SettingWidgets : public SettingVisitor {
   }
 
   void visit(const SettingInfo& info, std::uint32_t& value) override {
+    if (!haveInCommon(info.lights, lights_)) return;
     const auto least = static_cast<std::uint32_t>(info.least);
     const auto most = static_cast<std::uint32_t>(info.most);
     const bool moved = ImGui::SliderScalar(label(info).c_str(), ImGuiDataType_U32, &value, &least, &most, "%u",
@@ -79,10 +84,11 @@ class SettingWidgets : public SettingVisitor {
   }
 
   void visit(const SettingInfo& info, bool& value) override {
-    finish(info, ImGui::Checkbox(label(info).c_str(), &value));
+    if (haveInCommon(info.lights, lights_)) finish(info, ImGui::Checkbox(label(info).c_str(), &value));
   }
 
   void choice(const SettingInfo& info, std::span<const std::string_view> names, std::uint32_t& value) override {
+    if (!haveInCommon(info.lights, lights_)) return;
     const std::vector<std::string> texts(names.begin(), names.end());
     const std::optional<std::size_t> chosen = choose(label(info).c_str(), texts, texts.at(value));
     value = static_cast<std::uint32_t>(chosen.value_or(value));
@@ -124,13 +130,13 @@ class SettingWidgets : public SettingVisitor {
   void finish(const SettingInfo& info, bool changed) {
     changed_ = changed_ || changed;
     if (ImGui::IsItemHovered()) {
-      const std::string text = std::string(info.description) +
-                               (info.unit.empty() ? "" : "\nUnit: " + std::string(info.unit)) +
+      const std::string text = descriptionOf(info) + (info.unit.empty() ? "" : "\nUnit: " + std::string(info.unit)) +
                                "\nSource: " + std::string(info.source);
       ImGui::SetTooltip("%s", text.c_str());
     }
   }
 
+  LightKinds lights_;
   bool changed_ = false;
   bool dragging_ = false;
 };
@@ -328,7 +334,7 @@ void methodPanel(Session& session, const LiveFrame& live) {
 void settingsPanel(Session& session) {
   constexpr float kLabelWidth = 0.5F;
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * kLabelWidth);
-  SettingWidgets widgets;
+  SettingWidgets widgets({.diffuse = true, .specular = session.tracer().specular()});
   session.method().visitSettings(widgets);
   ImGui::PopItemWidth();
   session.dragging = widgets.dragging();
