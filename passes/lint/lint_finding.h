@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -15,5 +16,8 @@ struct LintFinding {
   /// The finding as one paragraph.
   [[nodiscard]] std::string text() const;
 };
+
+/// "12.3 % of 4567 pixels".
+std::string share(std::uint64_t part, std::uint64_t whole, const std::string& of);
 
 }  // namespace walr

@@ -49,9 +49,6 @@ class LintJudge {
   std::vector<LintFinding> found_;
 };
 
-/// "12.3 % of 4567 pixels".
-std::string share(std::uint64_t part, std::uint64_t whole, const std::string& of);
-
 /// More than half, of a large enough sample.
 inline bool isMost(std::uint64_t part, std::uint64_t whole) {
   return whole >= kLeastLintSample && 2 * part > whole;

@@ -18,6 +18,7 @@
 #include "samples/command_line/motion_depth.h"
 #include "samples/denoise/gpu_denoiser.h"
 #include "samples/errors.h"
+#include "samples/sequence/reflection_linter.h"
 #include "samples/sequence/sequence.h"
 #include "samples/sequence/specular_linter.h"
 
@@ -43,17 +44,20 @@ void lint(LintOptions& options) {
   GpuDenoiser runner(device, *method, sequence.extent(), layout, {.lint = true});
   InputLinter linter(layout.conventions);
   SpecularLinter specular;
+  ReflectionLinter reflections(layout.conventions);
   std::vector<NonFiniteChannel> nonFinite;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     const PackedFrame frame = packFrame(sequence.read(i));
     std::ranges::copy(frame.frame.nonFinite, std::back_inserter(nonFinite));
     specular.add(frame.frame);
+    reflections.add(frame.frame, frameConstantsOf(frame.frame, layout.motionScale));
     linter.add(runner.run(frame).lint, frameDescriptionOf(frame.frame, layout.motionScale), sequence.extent(),
                !frame.frame.resetHistory);
   }
   device.refuseMessages();
   std::vector<LintFinding> findings = linter.findings();
   std::ranges::copy(specular.findings(), std::back_inserter(findings));
+  std::ranges::copy(reflections.findings(), std::back_inserter(findings));
   for (LintFinding& finding : findings) {
     if (finding.name != "lighting-negative" || !sequence.lossy()) continue;
     finding.cause = "the lossy compression of the files (B44 or DWA), which moves dark values below 0";

@@ -9,22 +9,10 @@
 
 #include "integration/include/walr/specular_albedo.h"
 #include "passes/lint/lint_inputs.h"
+#include "samples/sequence/frame_pixels.h"
 
 namespace walr {
 namespace {
-
-glm::vec3 colorAt(const Image& image, std::size_t i) {
-  return {image.pixel(i)[0], image.pixel(i)[1], image.pixel(i)[2]};
-}
-
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool isSurface(const Frame& frame, std::size_t i) {
-  const float depth = frame.depth.pixel(i)[0];
-  return depth > 0.0F && depth < kSkyDepth;
-}
 
 /// Whether a pixel has a sample of specular light.
 bool isSampled(const Frame& frame, std::size_t i) {
@@ -41,10 +29,6 @@ glm::vec3 rayThrough(const Frame& frame, std::size_t i) {
                                   (1.0F - 2.0F * place.y + projection[2][1]) / projection[1][1], -1.0F));
 }
 
-std::string share(std::uint64_t part, std::uint64_t whole, const std::string& what) {
-  return std::to_string(100 * part / std::max<std::uint64_t>(whole, 1)) + " % of " + std::to_string(whole) + " " + what;
-}
-
 }  // namespace
 
 void SpecularLinter::add(const Frame& frame) {
@@ -52,13 +36,13 @@ void SpecularLinter::add(const Frame& frame) {
   const auto width = static_cast<std::size_t>(frame.depth.width());
   for (std::size_t i = 0; i < frame.depth.pixelCount(); ++i) {
     if (!isSurface(frame, i)) continue;
-    const glm::vec3 light = colorAt(frame.specular, i);
+    const glm::vec3 light = vectorAt(frame.specular, i);
     const float distance = frame.specularDistance.empty() ? 0.0F : frame.specularDistance.pixel(i)[0];
     const float roughness = frame.roughness.empty() ? 0.0F : frame.roughness.pixel(i)[0];
     const glm::vec3 others(distance, roughness, 0.0F);
-    const glm::vec3 motion = frame.specularMotion.empty() ? glm::vec3(0.0F) : colorAt(frame.specularMotion, i);
+    const glm::vec3 motion = frame.specularMotion.empty() ? glm::vec3(0.0F) : vectorAt(frame.specularMotion, i);
     const bool allFinite =
-        finite(light) && finite(colorAt(frame.specularAlbedo, i)) && finite(others) && finite(motion);
+        isFinite(light) && isFinite(vectorAt(frame.specularAlbedo, i)) && isFinite(others) && isFinite(motion);
     notFinite_ += allFinite ? 0 : 1;
     negative_ += std::min({light.x, light.y, light.z}) < 0.0F ? 1 : 0;
     badDistances_ += distance < 0.0F ? 1 : 0;
@@ -68,13 +52,14 @@ void SpecularLinter::add(const Frame& frame) {
       if (i + width < frame.depth.pixelCount()) addPair(frame, i, i + width);
     }
     if (!frame.specularDistance.empty()) addRoughness(frame, i);
+    addMetal(frame, i);
   }
 }
 
 void SpecularLinter::addPair(const Frame& frame, std::size_t here, std::size_t there) {
   const float depth = frame.depth.pixel(here)[0];
-  const glm::vec3 normal = colorAt(frame.normal, here);
-  const glm::vec3 other = colorAt(frame.normal, there);
+  const glm::vec3 normal = vectorAt(frame.normal, here);
+  const glm::vec3 other = vectorAt(frame.normal, there);
   if (!isSampled(frame, there) || !isSurface(frame, there) ||
       std::abs(frame.depth.pixel(there)[0] - depth) > 0.02F * depth ||
       glm::dot(normal, other) < 0.99F * glm::length(normal) * glm::length(other) ||
@@ -102,13 +87,13 @@ void SpecularLinter::addPair(const Frame& frame, std::size_t here, std::size_t t
 }
 
 void SpecularLinter::addRoughness(const Frame& frame, std::size_t pixel) {
-  const glm::vec3 albedo = colorAt(frame.specularAlbedo, pixel);
+  const glm::vec3 albedo = vectorAt(frame.specularAlbedo, pixel);
   const float roughness = frame.roughness.pixel(pixel)[0];
-  const glm::vec3 diffuse = colorAt(frame.albedo, pixel);
+  const glm::vec3 diffuse = vectorAt(frame.albedo, pixel);
   const bool dielectric =
       albedo.x == albedo.y && albedo.y == albedo.z && std::max({diffuse.x, diffuse.y, diffuse.z}) > 0.01F;
   if (!dielectric || !(roughness > 0.0F && roughness < 1.0F)) return;
-  const float cosine = std::abs(glm::dot(colorAt(frame.normal, pixel), rayThrough(frame, pixel)));
+  const float cosine = std::abs(glm::dot(vectorAt(frame.normal, pixel), rayThrough(frame, pixel)));
   std::array<float, 3> errors{};
   const std::array readings = {roughness, std::sqrt(roughness), roughness * roughness};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -119,6 +104,19 @@ void SpecularLinter::addRoughness(const Frame& frame, std::size_t pixel) {
   constexpr float kFits = 0.08F;
   const auto others = std::ranges::count_if(errors, [&](float error) { return error < *best + kFits; });
   if (*best < kFits && others == 1) ++encodings_.at(static_cast<std::size_t>(best - errors.begin()));
+}
+
+void SpecularLinter::addMetal(const Frame& frame, std::size_t pixel) {
+  const auto most = [&](const Image& image) {
+    const glm::vec3 v = image.empty() ? glm::vec3(0.0F) : vectorAt(image, pixel);
+    return std::max({v.x, v.y, v.z});
+  };
+  constexpr float kBlack = 0.01F;
+  constexpr float kMetallic = 0.1F;  // Above dielectrics, which are near .04 unless seen at grazing angles.
+  if (!(most(frame.albedo) < kBlack && most(frame.specularAlbedo) > kMetallic)) return;
+  ++metals_.all;
+  metals_.diffuse += most(frame.indirect) > 0.0F || most(frame.direct) > 0.0F ? 1 : 0;
+  metals_.specular += most(frame.specular) > 0.0F ? 1 : 0;
 }
 
 std::vector<LintFinding> SpecularLinter::findings() const {
@@ -147,6 +145,12 @@ std::vector<LintFinding> SpecularLinter::findings() const {
         {"roughness-encoding",
          "roughness is " + std::string(text) + " by the albedo of " + share(fit, encoded, "pixels of dielectrics"),
          "another convention of roughness", "write linear roughness as in glTF, whose square is GGX's alpha"});
+  }
+  if (metals_.all >= kLeastLintSample && 2 * metals_.diffuse > metals_.all && metals_.diffuse > 4 * metals_.specular) {
+    found.push_back({"lobes-swapped",
+                     share(metals_.diffuse, metals_.all, "pixels without a diffuse albedo have diffuse light, and ") +
+                         std::to_string(metals_.specular) + " have specular light",
+                     "diffuse and specular light were written to each other's channels", "swap them"});
   }
   constexpr double kStandardErrors = 4.0;  // See `LintJudge::judgeAlbedo`.
   if (pairs_ >= kLeastLintSample && balance_ >= kStandardErrors * std::sqrt(variance_)) {

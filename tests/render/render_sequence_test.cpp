@@ -197,6 +197,7 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
       {{"specular-distance"}, [](Frame& spoiled) { spoiled.specularDistance.at(9, 40, 0) = -1.0F; }},
       {{"specular-not-finite"}, [](Frame& spoiled) { spoiled.specularDistance.at(9, 40, 0) = NAN; }},
       {{"specular-not-finite"}, [](Frame& spoiled) { spoiled.specularMotion.at(9, 40, 2) = NAN; }},
+      {{"lobes-swapped"}, [](Frame& spoiled) { std::swap(spoiled.specular, spoiled.indirect); }},
       {{"specular-negative"}, [](Frame& spoiled) { spoiled.specular.at(9, 40, 1) = -1.0F; }},
   };
   for (const Case& spoilt : cases) {
