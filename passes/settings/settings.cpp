@@ -205,7 +205,15 @@ class Lister final : public SettingVisitor {
   }
 };
 
-/// Finds the lights that the setting of the given name acts on.
+/// A name without "specular-", by which the settings of the two lights differ.
+std::string withoutLight(std::string_view name) {
+  constexpr std::string_view kLight = "specular-";
+  std::string shared(name);
+  if (const std::size_t at = shared.find(kLight); at != std::string::npos) shared.erase(at, kLight.size());
+  return shared;
+}
+
+/// Finds the lights that the setting of the given name acts on, and the same setting of the other light.
 class LightFinder final : public SettingVisitor {
  public:
   explicit LightFinder(std::string_view name) : name_(name) {}
@@ -218,10 +226,15 @@ class LightFinder final : public SettingVisitor {
   }
 
   LightKinds lights;
+  std::string_view counterpart;  ///< Empty if there is none.
 
  private:
   void find(const SettingInfo& info) {
-    if (info.name == name_) lights = info.lights;
+    if (info.name == name_) {
+      lights = info.lights;
+    } else if (withoutLight(info.name) == withoutLight(name_)) {
+      counterpart = info.name;
+    }
   }
 
   std::string_view name_;
@@ -259,7 +272,8 @@ void Configurable::requireEffect(std::string_view name, LightKinds lights) {
   throw std::invalid_argument(
       "setting " + std::string(name) + " acts on " +
       (finder.lights.diffuse ? "diffuse light only, and only specular" : "specular light only, and only diffuse") +
-      " light is denoised here: leave it out");
+      " light is denoised here: " +
+      (finder.counterpart.empty() ? "leave it out" : "set " + std::string(finder.counterpart)));
 }
 
 std::vector<SettingText> Configurable::settings() {

@@ -270,6 +270,8 @@ TEST_F(TwoLights, RefuseSettingsThatActOnNeither) {
   EXPECT_NE(set(specular, "blocks.size", "4").find("blocks.size " + diffuseOnly), std::string::npos);
   EXPECT_NE(set(both, "second.blocks.size", "4").find("blocks.size " + diffuseOnly), std::string::npos);
   EXPECT_NE(set(diffuse, "antialiasing.specular-clip-gamma", "1").find(specularOnly), std::string::npos);
+  EXPECT_NE(set(specular, "accumulation.max-history", "4").find(": set accumulation.max-specular-history"),
+            std::string::npos);
   EXPECT_EQ(set(both, "blocks.size", "4"), "");
   EXPECT_EQ(set(both, "second.antialiasing.specular-clip-gamma", "1"), "");
   EXPECT_EQ(set(specular, "antialiasing.max-history", "4"), "");
