@@ -82,24 +82,25 @@ std::optional<glm::ivec2> ReflectionLinter::addPoint(const Frame& frame, const F
   // One pixel around it is looked at, too.
   if (!(place.x >= 1.0F && place.y >= 1.0F && place.x < size.x - 1.0F && place.y < size.y - 1.0F)) return std::nullopt;
   const glm::ivec2 pixel(place);
-  bool near = false;
-  bool allBeyond = true;
+  const auto liesAt = [&](float depth) { return std::abs(depth + point.z) <= -kOnSurface * point.z; };
+  bool seen = false;
+  bool inAir = true;
   for (int i = 0; i < 9; ++i) {
     const float depth = frame.depth.at(pixel.x + i % 3 - 1, pixel.y + i / 3 - 1, 0);
-    near = near || std::abs(depth + point.z) <= -kOnSurface * point.z;
-    allBeyond = allBeyond && depth > -(1.0F + kOnSurface) * point.z;
+    seen = seen || liesAt(depth);
+    inAir = inAir && depth > -(1.0F + kOnSurface) * point.z;
   }
-  points.seen += near ? 1 : 0;
-  points.inAir += allBeyond ? 1 : 0;
-  const float depth = frame.depth.at(pixel.x, pixel.y, 0);
-  return near && std::abs(depth + point.z) <= -kOnSurface * point.z ? std::optional(pixel) : std::nullopt;
+  points.seen += seen ? 1 : 0;
+  points.inAir += inAir ? 1 : 0;
+  return liesAt(frame.depth.at(pixel.x, pixel.y, 0)) ? std::optional(pixel) : std::nullopt;
 }
 
 void ReflectionLinter::addMotion(const Frame& frame, const FrameConstants& constants, glm::vec3 told, glm::ivec2 at) {
   if (conventions_.motionDepth != InputConventions::MotionDepth::Given) return;
   const float depth = frame.depth.at(at.x, at.y, 0);
   const glm::vec3 motion = vectorAt(frame.motion, indexOf(frame, at));
-  const glm::vec2 before = glm::vec2(at) + 0.5F + glm::vec2(motion) * constants.motionScale;
+  glm::vec2 before = glm::vec2(at) + 0.5F + glm::vec2(motion) * constants.motionScale;
+  if (!conventions_.motionJittered) before += constants.jitterDelta;
   const glm::vec3 previous = rayThrough(constants.previousRayFromPixel, before) * (depth + motion.z);
   const glm::vec3 position = positionAt(frame, constants, at);
   // In view space of this frame, as a still camera sees it.
