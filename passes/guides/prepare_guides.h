@@ -21,8 +21,8 @@ struct PrepareGuidesSettings {
 
   void visit(SettingVisitor& v) {
     v.visit({"guides.albedo-threshold",
-             "Albedo, of the light's lobe, below which in every channel a pixel is treated like sky; 0 leaves the "
-             "albedo unread",
+             "A pixel is treated like sky if the albedo of the light's lobe is below this in every channel; 0 leaves "
+             "the albedo unread",
              "", 0.0, 1.0, "measured"},
             albedoThreshold);
   }

@@ -27,6 +27,11 @@ fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buf
 /// With fewer pixels or pairs than this there is no finding.
 inline constexpr std::uint64_t kLeastLintSample = 100;
 
+/// More than half, of a large enough sample.
+inline bool isMost(std::uint64_t part, std::uint64_t whole) {
+  return whole >= kLeastLintSample && 2 * part > whole;
+}
+
 /// A count of `addLintInputs` that programs may want.
 struct LintCount {
   std::string_view name;

@@ -49,11 +49,6 @@ class LintJudge {
   std::vector<LintFinding> found_;
 };
 
-/// More than half, of a large enough sample.
-inline bool isMost(std::uint64_t part, std::uint64_t whole) {
-  return whole >= kLeastLintSample && 2 * part > whole;
-}
-
 /// More than a hundredth: errors of single pixels, as opposed to wrong conventions, stay below.
 inline bool isMany(std::uint64_t part, std::uint64_t whole) {
   return part > 0 && 100 * part > whole;

@@ -201,7 +201,7 @@ class Lister final : public SettingVisitor {
  private:
   void add(const SettingInfo& info, std::string value, std::string range) {
     list.push_back({std::string(info.name), std::move(value), std::move(range), std::string(info.unit),
-                    descriptionOf(info), std::string(info.source)});
+                    descriptionOf(info), std::string(info.source), info.lights});
   }
 };
 
@@ -212,33 +212,6 @@ std::string withoutLight(std::string_view name) {
   if (const std::size_t at = shared.find(kLight); at != std::string::npos) shared.erase(at, kLight.size());
   return shared;
 }
-
-/// Finds the lights that the setting of the given name acts on, and the same setting of the other light.
-class LightFinder final : public SettingVisitor {
- public:
-  explicit LightFinder(std::string_view name) : name_(name) {}
-
-  void visit(const SettingInfo& info, float& /*value*/) override { find(info); }
-  void visit(const SettingInfo& info, std::uint32_t& /*value*/) override { find(info); }
-  void visit(const SettingInfo& info, bool& /*value*/) override { find(info); }
-  void choice(const SettingInfo& info, std::span<const std::string_view> /*names*/, std::uint32_t& /*value*/) override {
-    find(info);
-  }
-
-  LightKinds lights;
-  std::string_view counterpart;  ///< Empty if there is none.
-
- private:
-  void find(const SettingInfo& info) {
-    if (info.name == name_) {
-      lights = info.lights;
-    } else if (withoutLight(info.name) == withoutLight(name_)) {
-      counterpart = info.name;
-    }
-  }
-
-  std::string_view name_;
-};
 
 class RangeChecker final : public SettingVisitor {
  public:
@@ -266,14 +239,16 @@ void Configurable::set(std::string_view name, std::string_view value) {
 }
 
 void Configurable::requireEffect(std::string_view name, LightKinds lights) {
-  LightFinder finder(name);
-  visitSettings(finder);
-  if (haveInCommon(finder.lights, lights)) return;
+  const std::vector<SettingText> all = settings();
+  const auto found = std::ranges::find(all, name, &SettingText::name);
+  if (found == all.end() || haveInCommon(found->lights, lights)) return;
+  const auto counterpart = std::ranges::find_if(all, [&](const SettingText& other) {
+    return other.name != name && withoutLight(other.name) == withoutLight(name);
+  });
   throw std::invalid_argument(
       "setting " + std::string(name) + " acts on " +
-      (finder.lights.diffuse ? "diffuse light only, and only specular" : "specular light only, and only diffuse") +
-      " light is denoised here: " +
-      (finder.counterpart.empty() ? "leave it out" : "set " + std::string(finder.counterpart)));
+      (found->lights.diffuse ? "diffuse light only, and only specular" : "specular light only, and only diffuse") +
+      " light is denoised here: " + (counterpart == all.end() ? "leave it out" : "set " + counterpart->name));
 }
 
 std::vector<SettingText> Configurable::settings() {

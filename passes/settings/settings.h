@@ -80,6 +80,7 @@ struct SettingText {
   std::string unit;
   std::string description;
   std::string source;
+  LightKinds lights;  ///< That the setting acts on.
 };
 
 /// Anything that has settings.

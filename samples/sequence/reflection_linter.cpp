@@ -26,10 +26,6 @@ constexpr float kLeastMotion = 0.5F;
 /// Few mirrors show what moves, but a wrong convention is wrong in all of them.
 constexpr std::uint64_t kLeastMovingPoints = 20;
 
-bool isMostOf(std::uint64_t part, std::uint64_t whole) {
-  return whole >= kLeastLintSample && 2 * part > whole;
-}
-
 /// View ray of a position in pixels, with z = -1.
 glm::vec3 rayThrough(glm::vec4 rayFromPixel, glm::vec2 position) {
   return {position * glm::vec2(rayFromPixel) + glm::vec2(rayFromPixel.z, rayFromPixel.w), -1.0F};
@@ -120,10 +116,10 @@ void ReflectionLinter::addMotion(const Frame& frame, const FrameConstants& const
 
 std::vector<LintFinding> ReflectionLinter::findings() const {
   std::vector<LintFinding> found;
-  const bool inAir = isMostOf(given_.inAir, given_.seen + given_.inAir);
+  const bool inAir = isMost(given_.inAir, given_.seen + given_.inAir);
   // Points too far away lie behind what the picture shows, and say nothing.
   const bool fromEye =
-      !isMostOf(fromEye_.inAir, fromEye_.seen + fromEye_.inAir) && isMostOf(fromEye_.seen, fromEye_.seen + given_.seen);
+      !isMost(fromEye_.inAir, fromEye_.seen + fromEye_.inAir) && isMost(fromEye_.seen, fromEye_.seen + given_.seen);
   if (inAir || fromEye) {
     const Points& points = fromEye ? fromEye_ : given_;
     const std::uint64_t whole = points.seen + points.inAir;
