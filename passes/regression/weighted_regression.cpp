@@ -13,7 +13,7 @@ namespace walr {
 namespace {
 
 /// The variants of the pass.
-enum class Role : std::uint8_t { Averages, Filter, View };
+enum class Variant : std::uint8_t { Averages, Filter, View };
 
 /// Formats of the textures that hold moments.
 const std::vector<VkFormat>& momentFormats(MomentStorage storage) {
@@ -40,9 +40,9 @@ const fg::Shader& averagesShader(MomentStorage storage, bool first) {
   }
 }
 
-const fg::Shader& shaderFor(Role role, MomentStorage storage, bool first) {
-  if (role == Role::Averages) return averagesShader(storage, first);
-  if (role == Role::View) return first ? shaders::atrousFirstView : shaders::atrousView;
+const fg::Shader& shaderFor(Variant variant, MomentStorage storage, bool first) {
+  if (variant == Variant::Averages) return averagesShader(storage, first);
+  if (variant == Variant::View) return first ? shaders::atrousFirstView : shaders::atrousView;
   return first ? shaders::atrousFirstLast : shaders::atrousLast;
 }
 
@@ -104,19 +104,19 @@ float noiseRidge(const WeightedRegressionSettings& settings, std::uint32_t spaci
 }
 
 /// Declare the moments that a pass reads. A shader that writes none can read every storage: it has all bindings.
-void readMoments(fg::PassBuilder& pass, Role role, const std::vector<fg::Texture>& moments) {
+void readMoments(fg::PassBuilder& pass, Variant variant, const std::vector<fg::Texture>& moments) {
   static constexpr std::array kBindings{"momentsA", "momentsB", "momentsC", "momentsD"};
   for (std::size_t i = 0; i < moments.size(); ++i) pass.sample(kBindings.at(i), moments[i]);
-  if (role == Role::Averages) return;
+  if (variant == Variant::Averages) return;
   for (std::size_t i = moments.size(); i < kBindings.size(); ++i) pass.unread(kBindings.at(i), moments.front());
 }
 
 /// The pass of an iteration, without its outputs.
-fg::PassBuilder declareIteration(StageGraph graph, const std::string& name, Role role, const Iteration& iteration,
+fg::PassBuilder declareIteration(StageGraph graph, const std::string& name, Variant variant, const Iteration& iteration,
                                  fg::Buffer frame, fg::Texture accumulated, LightingAlpha alpha, const Guides& guides,
                                  const WeightedRegressionSettings& settings) {
   const bool first = iteration.index == 0;
-  fg::PassBuilder pass = graph.compute(name, shaderFor(role, settings.storage, first));
+  fg::PassBuilder pass = graph.compute(name, shaderFor(variant, settings.storage, first));
   pass.uniform("frameConstants", frame)
       .sample("depth", iteration.averages.depth)
       .sample("planeNormal", settings.edgeStopping.normalOf(guides))
@@ -130,11 +130,11 @@ fg::PassBuilder declareIteration(StageGraph graph, const std::string& name, Role
       .constants(AtrousConstants{settings.edgeStopping.planeNear, settings.edgeStopping.planeFar, settings.sdfFraction,
                                  settings.regularisation.ridge, noiseRidge(settings, iteration.spacing)})
       .dispatch(graph.textureDesc(accumulated).extent);
-  if (first || role == Role::View) pass.sample("accumulated", accumulated);
-  if (first || role == Role::View) pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
-  if (first || role != Role::Averages) pass.sample("shadingNormal", guides.shadingNormal);
-  if (!first) readMoments(pass, role, iteration.averages.moments);
-  if (role == Role::Averages) {
+  if (first || variant == Variant::View) pass.sample("accumulated", accumulated);
+  if (first || variant == Variant::View) pass.specialize("kAlphaIsSampleCount", alpha == LightingAlpha::SampleCount);
+  if (first || variant != Variant::Averages) pass.sample("shadingNormal", guides.shadingNormal);
+  if (!first) readMoments(pass, variant, iteration.averages.moments);
+  if (variant == Variant::Averages) {
     pass.specialize("kKeepSampleCount", settings.keepSampleCount);
   } else {
     pass.specialize("kMomentStorage", static_cast<std::uint32_t>(settings.storage))
@@ -165,17 +165,17 @@ fg::Texture addWeightedRegression(StageGraph graph, fg::Buffer frame, fg::Textur
   checkSettings(settings);
   const fg::Extent extent = graph->textureDesc(accumulated).extent;
   Iteration iteration{.averages = {.moments = {}, .depth = guides.depth}};
-  const auto declare = [&](const std::string& name, Role role) {
-    return declareIteration(graph, name, role, iteration, frame, accumulated, alpha, guides, settings);
+  const auto declare = [&](const std::string& name, Variant variant) {
+    return declareIteration(graph, name, variant, iteration, frame, accumulated, alpha, guides, settings);
   };
   for (;; ++iteration.index, iteration.spacing *= 3) {
-    graph.offer(pixelIterationViews(), extent, [&](const std::string& name) { return declare(name, Role::View); },
+    graph.offer(pixelIterationViews(), extent, [&](const std::string& name) { return declare(name, Variant::View); },
                 {.index = iteration.index, .count = settings.iterations});
     const std::string suffix = " " + std::to_string(iteration.index);
     if (iteration.index + 1 == settings.iterations) {
-      return declare("a-trous" + suffix, Role::Filter).store("outFiltered", output);
+      return declare("a-trous" + suffix, Variant::Filter).store("outFiltered", output);
     }
-    fg::PassBuilder pass = declare("a-trous" + suffix, Role::Averages);
+    fg::PassBuilder pass = declare("a-trous" + suffix, Variant::Averages);
     iteration.averages = writeAverages(graph, pass, momentFormats(settings.storage), extent, suffix);
   }
 }
