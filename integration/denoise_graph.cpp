@@ -5,10 +5,12 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "passes/conventions/light_direction.h"
 #include "passes/guides/shared_guides.h"
 #include "passes/lint/lint_inputs.h"
+#include "passes/lint/lint_specular.h"
 #include "passes/stage/expected_error.h"
 #include "passes/stage/history_length.h"
 #include "shaders/conventions/frame.h"
@@ -189,8 +191,19 @@ void declareCounts(DenoiseGraph& declared, const DenoiserInputs& inputs, const D
   if (all.wanted.lint) {
     const fg::Buffer counts = graph.import("lint counters", fg::BufferDesc{kLintBytes}, all.states.outputBefore);
     declared.lint = addLintInputs(graph, inputs, counts);
-    graph.exported(declared.lint, all.states.outputAfter);
   }
+}
+
+/// Add the linter's pass for specular light, if there is any.
+/// @param own the converted inputs of each light
+void lintSpecular(DenoiseGraph& declared, std::span<const DenoiserInputs> own) {
+  const auto isSpecular = [](const DenoiserInputs& inputs) { return inputs.conventions.specular; };
+  const auto specular = std::ranges::find_if(own, isSpecular);
+  if (specular == own.end()) return;
+  const auto diffuse = std::ranges::find_if_not(own, isSpecular);
+  const bool compared = diffuse != own.end() && diffuse->conventions.light.fullSize();
+  declared.lint = addLintSpecular(
+      declared.graph, {.inputs = *specular, .diffuse = compared ? diffuse->lighting : fg::Texture{}}, declared.lint);
 }
 
 }  // namespace
@@ -232,6 +245,7 @@ DenoiseGraph declareDenoiseGraph(std::span<const DenoisedLight> lights, fg::Exte
   if (!declared.inspection.counters().empty()) {
     graph.exported(declared.inspection.counterBuffer(), states.outputAfter);
   }
+  std::vector<DenoiserInputs> converted{inputs};
   for (std::size_t i = 1; i < lights.size(); ++i) {
     const LightNames& names = kLightNames.at(i);
     const LightImages light = importLight(graph, declared.lights.front(), names, extent, all);
@@ -243,9 +257,14 @@ DenoiseGraph declareDenoiseGraph(std::span<const DenoisedLight> lights, fg::Exte
     own.confidence = light.confidence;
     own.conventions.specular = lights[i].specular;
     own = addConvertLight({graph, inspection, shared}, own, host, declared.host);
+    converted.push_back(own);
     addLight(declared, *lights[i].method, own, light, inspection, shared, all);
     keepViews(declared, inspection, names, all);
     declared.lights.push_back(light);
+  }
+  if (wanted.lint) {
+    lintSpecular(declared, converted);
+    graph.exported(declared.lint, states.outputAfter);
   }
   return declared;
 }

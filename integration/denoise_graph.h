@@ -29,11 +29,11 @@ struct DenoiseGraph {
   std::vector<LightImages> lights;  ///< In the order of the methods; at least one.
   std::vector<DebugView> views;     ///< The requested ones of all lights, in imports that receive them.
   Inspection inspection;            ///< Of the first light: its counters, and what it knows.
-  fg::Buffer lint;                  ///< Import that receives the counts of `addLintInputs`; invalid unless requested.
+  fg::Buffer lint;                  ///< Import that receives the linter's counts; invalid unless requested.
 };
 
-/// Further outputs of a graph; views, counters and lint are for debugging. Counters and lint are those of the first
-/// light.
+/// Further outputs of a graph; views, counters and lint are for debugging. Counters are those of the first light, lint
+/// those of the first and of specular light.
 struct InspectionWish {
   std::span<const std::string> views = {};  ///< Names; those of another light begin with its `LightNames::settings`.
   bool counters = false;

@@ -33,7 +33,7 @@ std::string LintFinding::text() const {
 
 void InputLinter::add(std::span<const std::uint32_t> words, const FrameDescription& camera, fg::Extent extent,
                       bool continues) {
-  counts_.add(words);
+  counts_.add(words, continues);
   LintFrame frame{.camera = camera,
                   .constants = frameConstants(camera, extent),
                   .size = {extent.width, extent.height},
@@ -75,6 +75,10 @@ std::vector<LintFinding> InputLinter::findings() const {
   judge.judgeMotion();
   // Where specular albedo differs, roughness may, and with it the light.
   if (!conventions_.specular) judge.judgeAlbedo();
+  judge.judgeSpecularValues();
+  judge.judgeLobes();
+  judge.judgeReflectedDistance();
+  judge.judgeReflectedMotion();
   return judge.take();
 }
 

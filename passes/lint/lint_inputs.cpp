@@ -29,8 +29,11 @@ fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buf
   return pass.update("counters", counters);
 }
 
-void LintCounts::add(std::span<const std::uint32_t> words) {
-  for (std::uint32_t word = 0; word < kLintCountWords; ++word) sums_[word] += words[word];
+void LintCounts::add(std::span<const std::uint32_t> words, bool continues) {
+  for (std::uint32_t word = 0; word < kLintCountWords; ++word) {
+    const bool ofMotion = word >= kReflectedMotions && word < kReflectedMotions + kReflectedMotionCount;
+    if (continues || !ofMotion) sums_[word] += words[word];
+  }
 
   // Halves of all pixels: those of either colour of a chessboard, odd or even columns, and odd or even rows.
   constexpr std::array<std::array<std::uint32_t, 2>, 6> kHalves{{{0, 3}, {1, 2}, {0, 2}, {1, 3}, {0, 1}, {2, 3}}};

@@ -56,11 +56,12 @@ inline constexpr std::array kLintCounts{
     LintCount{"lint-albedo-outside", kLintAlbedoOutside},
 };
 
-/// Counts of `addLintInputs`, summed over frames.
+/// Counts of `addLintInputs` and `addLintSpecular`, summed over frames.
 class LintCounts {
  public:
   /// Add the words of a frame.
-  void add(std::span<const std::uint32_t> words);
+  /// @param continues whether its history was not reset: else no motion counts
+  void add(std::span<const std::uint32_t> words, bool continues);
   [[nodiscard]] std::uint64_t operator[](std::uint32_t word) const { return sums_[word]; }
   /// Surfaces whose light is not 0.
   [[nodiscard]] std::uint64_t litPixels() const;

@@ -33,6 +33,12 @@ class LintJudge {
   void judgeMotion();   ///< lint_motion.cpp
   void judgeAlbedo();   ///< lint_albedo.cpp
 
+  // lint_specular.cpp; they find nothing without the counts of `addLintSpecular`.
+  void judgeSpecularValues();
+  void judgeLobes();
+  void judgeReflectedDistance();
+  void judgeReflectedMotion();
+
  private:
   void judgeMistake(const LintScores& scores, std::size_t best);
   void judgeCuts();
@@ -48,6 +54,20 @@ class LintJudge {
   const LintMotion& motion_;
   std::vector<LintFinding> found_;
 };
+
+/// Pairs of pixels on one surface whose albedo differs.
+struct AlbedoPairs {
+  std::uint64_t follow = 0;  ///< Those whose light follows albedo.
+  std::uint64_t all = 0;
+  double balance = 0.0;   ///< Weighed by the contrast of albedo: how many more follow it than ignore it,
+  double variance = 0.0;  ///< and the variance of that if chance decides.
+
+  [[nodiscard]] bool holdAlbedo() const;
+};
+
+/// The pairs that `addLintInputs` or `addLintSpecular` counted.
+/// @param follows, ignores first words of the classes of contrast
+AlbedoPairs albedoPairs(const LintCounts& counts, std::uint32_t follows, std::uint32_t ignores);
 
 /// More than a hundredth: errors of single pixels, as opposed to wrong conventions, stay below.
 inline bool isMany(std::uint64_t part, std::uint64_t whole) {

@@ -8,19 +8,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "passes/lint/input_linter.h"
-#include "passes/methods/denoiser.h"
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/channel_options.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/motion_depth.h"
-#include "samples/denoise/gpu_denoiser.h"
+#include "samples/denoise/gpu_linter.h"
 #include "samples/errors.h"
-#include "samples/sequence/reflection_linter.h"
 #include "samples/sequence/sequence.h"
-#include "samples/sequence/specular_linter.h"
 
 namespace walr {
 namespace {
@@ -37,27 +33,16 @@ void lint(LintOptions& options) {
   options.sequence.nonFinite = NonFinitePolicy::Replace;
   options.sequence.light.specular = SpecularWish::IfHeld;
   const Sequence sequence(options.input, options.sequence);
-  const Layout& layout = sequence.denoiserLayout();
   GpuDevice device(options.gpu);
-  // The linter runs beside a method; this is the cheapest that takes the light.
-  const std::unique_ptr<Denoiser> method = makeDenoiser(layout.conventions.light.everyPixel() ? "none" : "accumulate");
-  GpuDenoiser runner(device, *method, sequence.extent(), layout, {.lint = true});
-  InputLinter linter(layout.conventions);
-  SpecularLinter specular;
-  ReflectionLinter reflections(layout.conventions);
+  GpuLinter linter(device, sequence.extent(), sequence.denoiserLayout());
   std::vector<NonFiniteChannel> nonFinite;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
-    const PackedFrame frame = packFrame(sequence.read(i));
-    std::ranges::copy(frame.frame.nonFinite, std::back_inserter(nonFinite));
-    specular.add(frame.frame);
-    reflections.add(frame.frame, frameConstantsOf(frame.frame, layout.motionScale));
-    linter.add(runner.run(frame).lint, frameDescriptionOf(frame.frame, layout.motionScale), sequence.extent(),
-               !frame.frame.resetHistory);
+    const Frame frame = sequence.read(i);
+    std::ranges::copy(frame.nonFinite, std::back_inserter(nonFinite));
+    linter.add(frame);
   }
   device.refuseMessages();
   std::vector<LintFinding> findings = linter.findings();
-  std::ranges::copy(specular.findings(), std::back_inserter(findings));
-  std::ranges::copy(reflections.findings(), std::back_inserter(findings));
   for (LintFinding& finding : findings) {
     if (finding.name != "lighting-negative" || !sequence.lossy()) continue;
     finding.cause = "the lossy compression of the files (B44 or DWA), which moves dark values below 0";

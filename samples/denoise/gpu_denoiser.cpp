@@ -9,33 +9,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "framegraph/vulkan/staged_image.h"
 #include "passes/conventions/light_direction.h"
 #include "samples/denoise/device_graph.h"
+#include "samples/denoise/uploaded_texture.h"
 
 namespace walr {
 namespace {
-
-/// An input texture of the graph, with its image and the staging buffers of its uploads.
-class UploadedTexture {
- public:
-  UploadedTexture(const fg::vk::DeviceContext& device, const fg::Graph& graph, fg::vk::Executor& executor,
-                  fg::Texture texture, std::uint32_t slots)
-      : image_(device, graph.textureDesc(texture), executor.usage(texture), fg::vk::StagedImage::Direction::Upload,
-               slots, graph.desc().resources[texture.resource].name) {
-    executor.bind(texture, image_.external());
-  }
-
-  template <typename Texels>
-  void upload(const fg::vk::Frame& frame, const Texels& texels) const {
-    const auto bytes = std::as_bytes(std::span(texels));
-    std::ranges::copy(bytes, image_.staging(frame.slot).begin());
-    image_.recordUpload(frame.commandBuffer, frame.slot);
-  }
-
- private:
-  fg::vk::StagedImage image_;
-};
 
 bool isGiven(const HostInput& input, const OptionalImages& given, bool specular) {
   if (input.texture == &DenoiserInputs::objectId) return given.objectIds;
@@ -105,7 +84,6 @@ struct GpuDenoiser::State {
     for (const DebugView& view : declared.views) views.push_back(graph.readBack(view.texture));
     if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
     if (wanted.lightDirection) lightDirection = graph.readBack(declared.inspection.lightDirection());
-    if (declared.lint.valid()) lint = graph.readBack(declared.lint);
   }
 
   UploadedTexture makeUpload(const GpuDevice& gpu, fg::Texture texture, std::uint32_t slots) {
@@ -135,7 +113,6 @@ struct GpuDenoiser::State {
   std::vector<ReadbackGraph::Index> views;
   std::optional<ReadbackGraph::Index> counters;
   std::optional<ReadbackGraph::Index> lightDirection;
-  std::optional<ReadbackGraph::Index> lint;
   std::deque<Frame> frames;  ///< Frames in flight, except that of `run`.
 };
 
@@ -196,7 +173,6 @@ DenoisedPicture GpuDenoiser::State::finish() {
   if (lightDirection) {
     picture.slopes = slopeImages(graph.read<glm::uvec2>(*lightDirection, slot), width, height);
   }
-  if (lint) picture.lint = graph.read<std::uint32_t>(*lint, slot);
   if (counters) {
     const auto words = graph.read<std::uint32_t>(*counters, slot);
     for (const Counter& counter : declared.inspection.counters())

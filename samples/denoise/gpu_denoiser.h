@@ -26,7 +26,6 @@ struct DenoisedPicture {
   std::vector<ViewPicture> views;
   std::vector<CounterValue> counters;
   LightSlopes slopes;
-  std::vector<std::uint32_t> lint;  ///< Words of `addLintInputs`, if `InspectionWish::lint` requests them.
 
   /// Time of all passes, without the copies to and from the device; nullopt without timestamps.
   [[nodiscard]] std::optional<double> milliseconds() const;
@@ -59,7 +58,7 @@ class GpuDenoiser {
   /// @param methods one for each light, which share the guides of the first. They declare their passes during this
   ///                call and are not needed afterwards
   /// @param layout  conventions of the frames; must outlive this
-  /// @param wanted  views, counters, light direction and lint words to read back with every frame
+  /// @param wanted  views, counters and light direction to read back with every frame
   /// @param framesInFlight  largest number of frames on the device at once, at least 1
   /// @param given  what all frames have
   /// @param shared  what this denoiser shares with others on the device; see `fg::vk::SharedObjects` for the order of

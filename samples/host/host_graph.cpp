@@ -4,6 +4,7 @@
 
 #include "framegraph/vulkan/staged_image.h"
 #include "passes/lint/lint_inputs.h"
+#include "passes/lint/lint_specular.h"
 #include "passes/stage/inspection.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/host/shaders/view_constants.h"
@@ -144,11 +145,22 @@ Shading shadingOf(const HostGraph& host) {
   return shading;
 }
 
+/// Inputs of specular light, which the host must have.
+/// @param inputs of diffuse light
+DenoiserInputs specularInputs(const HostGraph& host, DenoiserInputs inputs) {
+  inputs.lighting = host.specular->texture;
+  inputs.specularAlbedo = host.specularAlbedo->texture;
+  inputs.roughness = host.roughness->texture;
+  inputs.specularMotion = host.specularMotion->texture;
+  inputs.conventions.specular = true;
+  return inputs;
+}
+
 /// Denoise what a method takes of the frame, and light the image with it.
 /// @param denoised  what diffuse light is written to, replaced by the written version
 /// @param lit       what the image is written to
 /// @returns the image
-fg::Texture addLit(HostGraph& host, Denoiser& method, DenoiserInputs inputs, const std::string& prefix,
+fg::Texture addLit(HostGraph& host, Denoiser& method, const DenoiserInputs& inputs, const std::string& prefix,
                    fg::Texture& denoised, fg::Texture lit) {
   fg::Graph& graph = host.graph;
   Inspection nothing;
@@ -156,13 +168,9 @@ fg::Texture addLit(HostGraph& host, Denoiser& method, DenoiserInputs inputs, con
   denoised = method.add(StageGraph(graph, nothing, {.prefix = prefix}), inputs, denoised);
   if (host.specular && method.takesSpecularLight()) {
     const std::string specular = prefix + std::string(kSpecularPrefix);
-    inputs.lighting = host.specular->texture;
-    inputs.specularAlbedo = host.specularAlbedo->texture;
-    inputs.roughness = host.roughness->texture;
-    inputs.specularMotion = host.specularMotion->texture;
-    inputs.conventions.specular = true;
     const fg::Texture output = graph.texture(specular + "denoised", graph.textureDesc(denoised));
-    shading.specular = method.add(StageGraph(graph, nothing, {.prefix = specular}), inputs, output);
+    shading.specular =
+        method.add(StageGraph(graph, nothing, {.prefix = specular}), specularInputs(host, inputs), output);
   }
   return addComposite(graph, prefix + "composite", denoised, shading, lit);
 }
@@ -251,6 +259,10 @@ HostGraph declareHostGraph(const fg::vk::DeviceContext& device, Denoiser& method
   if (view.lint) {
     const fg::Buffer counts = graph.import("lint counters", fg::BufferDesc{kLintBytes}, fg::vk::kOverwritable);
     host.lint = addLintInputs(graph, inputs, counts);
+    if (host.specular) {
+      const fg::Texture diffuse = light.fullSize() ? inputs.lighting : fg::Texture{};
+      host.lint = addLintSpecular(graph, {.inputs = specularInputs(host, inputs), .diffuse = diffuse}, *host.lint);
+    }
     graph.exported(*host.lint, fg::vk::kReadable);
   }
   host.denoised = declareTarget(graph, "denoised", colour, targets.denoised);

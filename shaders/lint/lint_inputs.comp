@@ -7,6 +7,7 @@
 #include "lint/lint_inputs.h"
 #include "common/finite.glsl"
 #include "common/hash.glsl"
+#include "lint/albedo_contrast.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform frameConstants { FrameConstants frame; };
@@ -18,11 +19,8 @@ uniform texture2D albedo;
 layout(std430) buffer counters { uint words[]; };
 #include "conventions/light_sample.glsl"
 
-shared uint partial[kLintCountWords];
-
-void count(uint word, bool condition) {
-  if (condition) atomicAdd(partial[word], 1u);
-}
+const uint kFirstCount = 0u, kCounts = kLintInputWords;
+#include "lint/counts.glsl"
 
 bool inside(ivec2 p) { return all(lessThan(p, textureSize(depth, 0))); }
 bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && z < frame.skyDepth; }
@@ -68,21 +66,9 @@ void countPair(ivec2 p, ivec2 q, float z, vec3 n, LightSample here, vec3 diffuse
   if (!isUsable(n) || !isUsable(otherNormal) || !isFinite(light) || !isFinite(otherLight)) return;
   if (!isSurfaceDepth(otherDepth) || abs(otherDepth - z) > 0.02 * z) return;
   if (dot(n, otherNormal) < 0.99 * length(n) * length(otherNormal)) return;
-  // The channel in which their albedo differs most.
-  float ofAlbedo = 0.0, ofLight = 0.0;  // Octaves.
-  for (int c = 0; c < 3; ++c) {
-    if (!(min(diffuse[c], otherDiffuse[c]) >= kAlbedoLeast && min(light[c], otherLight[c]) > 0.0)) continue;
-    const float contrast = log2(diffuse[c] / otherDiffuse[c]);
-    if (!(abs(contrast) > abs(ofAlbedo))) continue;
-    ofAlbedo = contrast;
-    ofLight = log2(light[c] / otherLight[c]);
-  }
-  const float steps = abs(ofAlbedo) / kAlbedoContrastStep;
-  if (steps < 1.0) return;
-  const uint contrastClass = min(uint(steps), kAlbedoContrasts) - 1u;
-  // Light that ignores albedo lies on either side of none at random, light that holds it on either side of albedo's.
-  const bool follows = ofLight * sign(ofAlbedo) > 0.5 * abs(ofAlbedo);
-  count((follows ? kLintFollowsAlbedo : kLintIgnoresAlbedo) + contrastClass, true);
+  bool follows;
+  const uint contrast = albedoContrast(light, otherLight, diffuse, otherDiffuse, follows);
+  count((follows ? kLintFollowsAlbedo : kLintIgnoresAlbedo) + contrast - 1u, contrast > 0u);
 }
 
 void countSamples(ivec2 p, LightSample light) {
@@ -163,16 +149,12 @@ void samplePixel(ivec2 p) {
 }
 
 void main() {
-  const uint threads = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
-  for (uint i = gl_LocalInvocationIndex; i < kLintCountWords; i += threads) partial[i] = 0u;
-  barrier();
+  clearCounts();
   const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
   if (inside(p)) {
     countPixel(p);
     samplePixel(p);
   }
   countFireflies(p);
-  barrier();
-  for (uint i = gl_LocalInvocationIndex; i < kLintCountWords; i += threads)
-    if (partial[i] > 0u) atomicAdd(words[i], partial[i]);
+  addCounts();
 }

@@ -1,5 +1,5 @@
-// What lint_inputs.comp writes: words of a buffer. The first are counts, each a number of pixels or of pairs of pixels;
-// samples follow. C++ reads them with `walr::LintCounts` and `walr::lintSamples` (passes/lint).
+// What lint_inputs.comp and lint_specular.comp write: words of a buffer. The first are counts, each a number of pixels or
+// of pairs of pixels; samples follow. C++ reads them with `walr::LintCounts` and `walr::lintSamples` (passes/lint).
 #ifndef WALR_SHADERS_LINT_LINT_INPUTS_H
 #define WALR_SHADERS_LINT_LINT_INPUTS_H
 #include "../common/types.h"
@@ -47,7 +47,38 @@ const uint kLintFireflies = 40;
 const float kFireflyContrast = 100.0;
 const uint kFireflyNeighbours = 16;
 
-const uint kLintCountWords = 41;
+const uint kLintInputWords = 41;  // So many are of lint_inputs.comp, the others of lint_specular.comp.
+
+// Specular light, of surfaces.
+const uint kSpecularNotFinite = 41;  // The light, its albedo, roughness or motion; NaN as a distance.
+const uint kSpecularNegative = 42;
+const uint kSpecularDistanceNegative = 43;
+const uint kSpecularRoughnessOutside = 44;  // Of 0 to 1.
+// As kLintFollowsAlbedo, of pairs of neighbours of equal roughness, and the albedo of the lobe.
+const uint kSpecularFollowsAlbedo = 45;
+const uint kSpecularIgnoresAlbedo = 53;
+
+// Dielectrics whose albedo is that of the roughness as it is given, of its square root, and of its square.
+const uint kRoughnessReadings = 61;
+const uint kRoughnessReadingCount = 3;
+
+const uint kLintMetals = 64;  // Surfaces with specular, but no diffuse albedo; and those of them with light of each lobe.
+const uint kLintMetalsDiffuse = 65;
+const uint kLintMetalsSpecular = 66;
+
+// Points that mirrors show: on a surface that the picture shows, and in the air before one; by the distance as it is
+// given, and by what is left of it if it was measured from the eye.
+const uint kReflectedSeen = 67;
+const uint kReflectedInAir = 68;
+const uint kFromEyeSeen = 69;
+const uint kFromEyeInAir = 70;
+
+// Points that mirrors show, where the picture shows them, too, and where they move: as is told, the opposite way, as is
+// told if that is in view space, and told to be still.
+const uint kReflectedMotions = 71;
+const uint kReflectedMotionCount = 4;
+
+const uint kLintCountWords = 75;
 
 // Samples: a pixel of each cell of a grid over the image, another one in each frame.
 const uint kLintFirstSample = 256;

@@ -170,20 +170,6 @@ TEST_F(CApi, AcceptsOtherFormatsAndRemembersTheCamera) {
   }
 }
 
-/// Names of what the linter has found.
-std::vector<std::string> findingsOf(WalrDenoiser denoiser) {
-  std::uint32_t count = 0;
-  require(walr_get_findings(denoiser, &count, nullptr));
-  std::vector<WalrFinding> findings(count);
-  require(walr_get_findings(denoiser, &count, findings.data()));
-  std::vector<std::string> names;
-  for (const WalrFinding& finding : findings) {
-    EXPECT_GT(std::strlen(finding.what) * std::strlen(finding.cause) * std::strlen(finding.way_out), 0U);
-    names.emplace_back(finding.name);
-  }
-  return names;
-}
-
 void keepWarning(void* user, WalrLogLevel level, const char* text) {
   if (level == WALR_LOG_WARNING) static_cast<std::vector<std::string>*>(user)->emplace_back(text);
 }

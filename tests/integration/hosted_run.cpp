@@ -366,4 +366,17 @@ void ignoreChangesOfLight(WalrDenoiser denoiser) {
   require(walr_set_setting(denoiser, "accumulation.antilag-low", "99"));
 }
 
+std::vector<std::string> findingsOf(WalrDenoiser denoiser) {
+  std::uint32_t count = 0;
+  require(walr_get_findings(denoiser, &count, nullptr));
+  std::vector<WalrFinding> findings(count);
+  require(walr_get_findings(denoiser, &count, findings.data()));
+  std::vector<std::string> names;
+  for (const WalrFinding& finding : findings) {
+    EXPECT_GT(std::strlen(finding.what) * std::strlen(finding.cause) * std::strlen(finding.way_out), 0U);
+    names.emplace_back(finding.name);
+  }
+  return names;
+}
+
 }  // namespace walr::test

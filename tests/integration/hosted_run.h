@@ -174,4 +174,7 @@ WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec
 /// Antilag stays on, because its passes are part of the method.
 void ignoreChangesOfLight(WalrDenoiser denoiser);
 
+/// Names of what the linter has found.
+std::vector<std::string> findingsOf(WalrDenoiser denoiser);
+
 }  // namespace walr::test

@@ -277,6 +277,37 @@ TEST_F(TwoLights, RefuseSettingsThatActOnNeither) {
   EXPECT_EQ(set(specular, "antialiasing.max-history", "4"), "");
 }
 
+// Metals have diffuse light and none of the specular lobe.
+TEST_F(TwoLights, AreSwappedAndTheLinterSaysSo) {
+  WalrDenoiserInfo both = ofLights(info("accumulate", kSize), WALR_LIGHT_DIFFUSE, WALR_LIGHT_SPECULAR);
+  both.lint = VK_TRUE;
+  for (const bool swapped : {false, true}) {
+    Opaque run(host, api(), both);
+    for (std::uint32_t number = 0; number < kFrames; ++number) {
+      for (const NeededImage& image : run.needed()) {
+        if (image.written()) continue;
+        const bool second = image.name.starts_with("second_");
+        std::vector<float> values = inputOf(image.name.substr(second ? 7 : 0), number, second);
+        const bool dark = image.name == (swapped ? "second_lighting" : "lighting");
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          if (image.name == "albedo" || (dark && i % 4 < 3)) values[i] = 0.0F;
+          if (image.name == "specular_albedo") values[i] = 0.9F;
+        }
+        host_upload(&host, &run.image(image.name), values.data());
+      }
+      run.frame(cameraAt(float(number) * kStep), 0);
+    }
+    std::array<WalrFinding, 16> findings{};
+    std::uint32_t count = findings.size();
+    require(api().get_findings(run.denoiser(), &count, findings.data()));
+    const auto end = findings.begin() + count;
+    const bool found = std::any_of(findings.begin(), end, [](const WalrFinding& finding) {
+      return std::string_view(finding.name) == "lobes-swapped";
+    });
+    EXPECT_EQ(found, swapped);
+  }
+}
+
 /// The memory that denoisers allocate.
 std::uint64_t allocated(const WalrApi& api, const WalrDenoiserInfo& info) {
   WalrMemory memory{};

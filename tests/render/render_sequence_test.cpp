@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "samples/denoise/gpu_linter.h"
 #include "samples/errors.h"
 #include "samples/image/exr.h"
 #include "samples/metrics/metrics.h"
@@ -21,7 +22,6 @@
 #include "samples/render/reference.h"
 #include "samples/render/render_sequence.h"
 #include "samples/sequence/sequence.h"
-#include "samples/sequence/specular_linter.h"
 #include "samples/sequence/writer.h"
 #include "tests/error_text.h"
 #include "tests/render/statistics.h"
@@ -200,13 +200,15 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
       {{"lobes-swapped"}, [](Frame& spoiled) { std::swap(spoiled.specular, spoiled.indirect); }},
       {{"specular-negative"}, [](Frame& spoiled) { spoiled.specular.at(9, 40, 1) = -1.0F; }},
   };
+  GpuDevice device({.device = {}, .validation = true});
   for (const Case& spoilt : cases) {
     Frame spoiled = frame;
     spoilt.change(spoiled);
-    SpecularLinter linter;
+    GpuLinter linter(device, sequence.extent(), projectLayout());
     linter.add(spoiled);
     EXPECT_EQ(namesOf(linter.findings()), spoilt.names);
   }
+  device.refuseMessages();
   // A folder with the light is not continued without it.
   options.specular = false;
   fg::test::expectError<InputError>([&] { render(options); }, {"'specular'"});

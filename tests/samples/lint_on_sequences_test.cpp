@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/lint/input_linter.h"
-#include "samples/denoise/gpu_denoiser.h"
+#include "samples/denoise/gpu_linter.h"
 #include "samples/sequence/sequence.h"
 #include "tests/shared_data.h"
 
@@ -16,17 +15,12 @@ namespace {
 
 /// Findings of the linter in a sequence after a change to its frames.
 std::vector<std::string> findings(const Sequence& sequence, const std::function<void(Frame&)>& change) {
-  const Layout& layout = *sequence.layout().layout;
   const GpuDevice device({.device = {}, .validation = false});
-  const auto none = makeDenoiser("none");
-  GpuDenoiser runner(device, *none, sequence.extent(), layout, {.lint = true});
-  InputLinter linter(layout.conventions);
+  GpuLinter linter(device, sequence.extent(), *sequence.layout().layout);
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     Frame frame = sequence.read(i);
     change(frame);
-    const PackedFrame packed = packFrame(std::move(frame));
-    linter.add(runner.run(packed).lint, frameDescriptionOf(packed.frame, layout.motionScale), sequence.extent(),
-               !packed.frame.resetHistory);
+    linter.add(frame);
   }
   std::vector<std::string> names;
   for (const LintFinding& finding : linter.findings()) names.emplace_back(finding.name);

@@ -1,6 +1,5 @@
 // Glossy light of Cycles as specular light: without a distance, and with roughness if the files hold it.
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -8,7 +7,6 @@
 
 #include "samples/errors.h"
 #include "samples/sequence/sequence.h"
-#include "samples/sequence/specular_linter.h"
 #include "tests/error_text.h"
 #include "tests/samples/sequence_fixture.h"
 
@@ -86,30 +84,6 @@ TEST_F(GlossSequence, IsReadOnlyIfBothLightsAreThere) {
   const Frame frame = open(options).read(0);
   EXPECT_TRUE(frame.specular.empty());
   EXPECT_TRUE(frame.specularAlbedo.empty());
-}
-
-// A checker in light and albedo would look like light that was not divided, if no roughness could explain it.
-TEST_F(GlossSequence, LintedWithoutDistanceAndRoughness) {
-  Frame frame = test::projectFrame(0, 160, 90);
-  frame.specular = frame.specularAlbedo = Image(160, 90, 3);
-  for (std::size_t i = 0; i < frame.specular.values().size(); ++i) {
-    frame.specular.values()[i] = frame.specularAlbedo.values()[i] = i / 3 % 2 == 0 ? 0.25F : 1.0F;
-  }
-  const auto found = [](const Frame& linted) {
-    SpecularLinter linter;
-    linter.add(linted);
-    std::vector<std::string> names;
-    for (const LintFinding& finding : linter.findings()) names.emplace_back(finding.name);
-    return names;
-  };
-  EXPECT_EQ(found(frame), std::vector<std::string>{});
-  frame.roughness = Image(160, 90, 1);
-  std::ranges::fill(frame.roughness.values(), 0.5F);
-  EXPECT_EQ(found(frame), std::vector<std::string>{"specular-albedo-in-light"});
-  frame.roughness = {};
-  frame.specular.at(9, 40, 1) = std::numeric_limits<float>::quiet_NaN();
-  frame.specular.at(9, 41, 1) = -1.0F;
-  EXPECT_EQ(found(frame), (std::vector<std::string>{"specular-not-finite", "specular-negative"}));
 }
 
 }  // namespace

@@ -304,7 +304,7 @@ typedef struct WalrDenoiserInfo {
   WalrLog log;         /* Optional. */
   void* log_user;
   VkFormat object_id_format; /* Of WalrFrame::object_id, unsigned integers; VK_FORMAT_UNDEFINED: no such image. */
-  VkBool32 lint;             /* Check the inputs of every frame, see walr_get_findings. For debugging: costs a pass. */
+  VkBool32 lint;             /* Check the inputs of every frame, see walr_get_findings. For debugging: costs passes. */
   /* Used for all pipelines; optional. It must outlive the object that is created with it. To avoid compilation at the
    * next start, save the result of vkGetPipelineCacheData and create the cache from it. */
   VkPipelineCache pipeline_cache;
@@ -326,8 +326,8 @@ typedef struct WalrDenoiserInfo {
    * guides are refused, and settings that decide which guides are made must be the same for both; the error text lists
    * them. Two kinds share the images only. Each light has its own histories and settings. The results are those of two
    * denoisers, to the bit. The images of the second light are WalrFrame::second_lighting and those after it; their
-   * formats are those of the first. Counters and lint are those of the first light, and so is the view unless its name
-   * begins with "second.". Single stages have one light. */
+   * formats are those of the first. Counters are those of the first light, and so is the view unless its name begins
+   * with "second."; lint checks the first light, and specular light. Single stages have one light. */
   uint32_t light_count;
   const char* second_preset; /* With two lights: the preset of the second. Null means `preset`. */
   VkBool32 expected_error;   /* Write WalrFrame::expected_error. It costs a small pass; method walr only. */

@@ -268,9 +268,9 @@ WALR_API WalrResult walr_forget_pass_image(WalrPasses passes, VkImage image, uin
  * it. A frame is evaluated when walr_begin_frame begins the one `frames_in_flight` after it. Names are valid as long as
  * the passes. */
 WALR_API WalrResult walr_get_pass_timings(WalrPasses passes, uint32_t* count, WalrPassTime* times);
-/* As walr_get_findings, for passes of a whole method. With WalrDenoiserInfo::lint, the list has two more passes. A
- * frame in which they are not recorded is not checked; leave them out in a frame that follows a camera cut. A new
- * finding is not logged. */
+/* As walr_get_findings, for passes of a whole method. With WalrDenoiserInfo::lint, the list has two more passes, and
+ * another one for specular light. A frame in which they are not recorded is not checked; leave them out in a frame that
+ * follows a camera cut. A new finding is not logged. */
 WALR_API WalrResult walr_get_pass_findings(WalrPasses passes, uint32_t* count, WalrFinding* findings);
 
 /* As walr_get_counters, for passes of a whole method. With WalrDenoiserInfo::counters, the list has more passes; a

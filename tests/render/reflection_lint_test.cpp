@@ -1,6 +1,6 @@
-// Frames with mirrors pass the linter of reflections, and each change that a host makes by mistake is found.
+// Frames with mirrors pass the linter, and each mistake in what is said of the things that they show is found.
 
-#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -10,10 +10,9 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "samples/denoise/gpu_linter.h"
 #include "samples/denoise/packed_frame.h"
 #include "samples/render/render_sequence.h"
-#include "samples/sequence/frame_pixels.h"
-#include "samples/sequence/reflection_linter.h"
 #include "samples/sequence/sequence.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -42,11 +41,15 @@ std::vector<Frame> rendered(const std::string& scene, const std::string& camera)
 using Change = std::function<void(Frame&)>;
 
 std::vector<LintFinding> lint(std::vector<Frame> frames, const Change& change) {
-  ReflectionLinter linter(projectLayout().conventions);
+  GpuDevice device({.device = {}, .validation = true});
+  const walr::Image& depth = frames.front().depth;
+  GpuLinter linter(device, {static_cast<std::uint32_t>(depth.width()), static_cast<std::uint32_t>(depth.height())},
+                   projectLayout());
   for (Frame& frame : frames) {
     change(frame);
-    linter.add(frame, frameConstantsOf(frame, projectLayout().motionScale));
+    linter.add(frame);
   }
+  device.refuseMessages();
   return linter.findings();
 }
 
@@ -64,12 +67,13 @@ using Names = std::vector<std::string>;
 
 void eachMotion(Frame& frame, const std::function<glm::vec3(glm::vec3)>& change) {
   for (std::size_t i = 0; i < frame.depth.pixelCount(); ++i) {
-    const glm::vec3 changed = change(vectorAt(frame.specularMotion, i));
-    for (int c = 0; c < 3; ++c) frame.specularMotion.pixel(i)[static_cast<std::size_t>(c)] = changed[c];
+    const auto motion = frame.specularMotion.pixel(i);
+    const glm::vec3 changed = change({motion[0], motion[1], motion[2]});
+    for (int c = 0; c < 3; ++c) motion[static_cast<std::size_t>(c)] = changed[c];
   }
 }
 
-TEST(ReflectionLinter, FindsDistancesOfAnotherRay) {
+TEST(GpuLinter, FindsDistancesOfAnotherRay) {
   const std::vector<Frame> frames = rendered("gloss.gltf", "");
   EXPECT_EQ(found(frames, [](Frame&) {}), Names{});
   const Names wrong{"specular-distance-of-another-ray"};
@@ -96,7 +100,7 @@ TEST(ReflectionLinter, FindsDistancesOfAnotherRay) {
 }
 
 // A ball that moves before a mirror, seen both ways.
-TEST(ReflectionLinter, FindsMotionsTheWrongWay) {
+TEST(GpuLinter, FindsMotionsTheWrongWay) {
   const std::vector<Frame> frames = rendered("gloss.gltf", "mirror");
   EXPECT_EQ(found(frames, [](Frame&) {}), Names{});
   EXPECT_EQ(found(frames, [](Frame& frame) { eachMotion(frame, [](glm::vec3 m) { return -m; }); }),
