@@ -26,7 +26,9 @@ const bool kDistances = true;
 #else
 const bool kDistances = false;
 #endif
-const float kLongestNewtonStep = 8.0;     // Pixels.
+const float kLongestNewtonStep = 16.0;    // Pixels of the previous frame.
+const float kMostTwist = 0.5;             // Of normals over a step, over the miss.
+const float kRoundingOfTwist = 1e-4;      // Of four stored normals, each of which is within 2.2e-5 of its value.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
 const float kFarthestObject = 3000.0;     // Over depth; what is farther is reflected from here.
 const float kMirrorUpTo = 0.05;           // Roughness up to which history must have the distance of what is reflected.
@@ -165,6 +167,7 @@ struct Before {
   // Their changes from one pixel of the previous frame to the next, if `whole`.
   vec3 positionSlopes[2];
   vec3 normalSlopes[2];
+  vec3 normalTwist;  // By how much a slope of normals differs between the two sides.
   bvec4 accepted;
   bool found;
   bool whole;  // All four pixels show what is sought.
@@ -201,6 +204,7 @@ Before surfaceBefore(HistoryTaps taps, Sought sought) {
   const vec2 f = taps.fraction;
   b.positionSlopes[0] = mix(positions[1] - positions[0], positions[3] - positions[2], f.y);
   b.positionSlopes[1] = mix(positions[2] - positions[0], positions[3] - positions[1], f.x);
+  b.normalTwist = normals[0] - normals[1] - normals[2] + normals[3];
   b.normalSlopes[0] = mix(normals[1] - normals[0], normals[3] - normals[2], f.y);
   b.normalSlopes[1] = mix(normals[2] - normals[0], normals[3] - normals[1], f.x);
   return b;
@@ -237,33 +241,31 @@ bool isFlat() {
 // A place in the previous image where the light may have been.
 struct Candidate {
   vec2 position;
-  Before before;
-  vec3 missed;  // missOf.
-  float miss;   // Its length; kNoHistory: there is none.
+  float miss;  // Length of missOf; kNoHistory: there is none.
 };
 
-Candidate candidateAt(vec2 position, Sought sought, vec3 object) {
-  const Before b = surfaceBefore(tapsAt(position), sought);
-  const vec3 missed = missOf(object, b.position, b.normal);
-  return Candidate(position, b, missed, b.found ? length(missed) : kNoHistory);
-}
-
-Candidate nearer(Candidate a, Candidate b) {
-  if (b.miss < a.miss) return b;
-  return a;
-}
-
-// One step of Newton's method on the miss, in pixels.
-vec2 newtonStep(Candidate c, vec3 object) {
-  const Before b = c.before;
-  const vec3 x = missOf(object, b.position + b.positionSlopes[0], b.normal + b.normalSlopes[0]) - c.missed;
-  const vec3 y = missOf(object, b.position + b.positionSlopes[1], b.normal + b.normalSlopes[1]) - c.missed;
+// Where one step of Newton's method on the miss leads from a place; that place, where slopes do not tell. They do not
+// where normals turn unevenly, as on bumps. The miss there is the one that slopes predict.
+Candidate newtonStep(Candidate from, Before b, vec3 missed, vec3 object) {
+  const vec3 x = missOf(object, b.position + b.positionSlopes[0], b.normal + b.normalSlopes[0]) - missed;
+  const vec3 y = missOf(object, b.position + b.positionSlopes[1], b.normal + b.normalSlopes[1]) - missed;
   // Least squares: the three components have two degrees of freedom.
   const float xx = dot(x, x), yy = dot(y, y), xy = dot(x, y), determinant = xx * yy - xy * xy;
-  if (!(determinant > 1e-6 * xx * yy)) return vec2(0.0);
-  const vec2 right = -vec2(dot(x, c.missed), dot(y, c.missed));
-  const vec2 step = vec2(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
-  return step * min(1.0, kLongestNewtonStep * inversesqrt(max(dot(step, step), 1e-20))) * frame.pixelFromPreviousPixel;
+  if (!(determinant > 1e-6 * xx * yy)) return from;
+  const vec2 right = -vec2(dot(x, missed), dot(y, missed));
+  vec2 step = vec2(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
+  step *= min(1.0, kLongestNewtonStep * inversesqrt(max(dot(step, step), 1e-20)));
+  if ((length(b.normalTwist) - kRoundingOfTwist) * dot(step, step) > kMostTwist * from.miss) return from;
+  const vec3 left = missed + step.x * x + step.y * y;
+  return Candidate(from.position + step * frame.pixelFromPreviousPixel, length(left));
+}
+
+Candidate candidateNear(vec2 start, Sought sought, vec3 object) {
+  const Before b = surfaceBefore(tapsAt(start), sought);
+  const vec3 missed = missOf(object, b.position, b.normal);
+  const Candidate there = Candidate(start, b.found ? length(missed) : kNoHistory);
+  if (!b.whole) return there;
+  return newtonStep(there, b, missed, object);
 }
 
 // Where the point that is reflected was in the previous frame, minus where it is: in view space of this frame. Values
@@ -306,9 +308,7 @@ ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
       const vec3 image = own.position + distance * seen + reflect(moved, own.normal);
       start += pixelBefore(image) - pixelBefore(own.position);
     }
-    Candidate best = candidateAt(start, sought, objectBefore);
-    if (best.before.whole)
-      best = nearer(best, candidateAt(best.position + newtonStep(best, objectBefore), sought, objectBefore));
+    const Candidate best = candidateNear(start, sought, objectBefore);
     result.followed = best.position != ofSurface;
     if (result.followed) result.motion = keepableMotion(best.position - frame.jitterDelta - pixelCentre(p));
     // No picture tells angles below half a pixel apart.

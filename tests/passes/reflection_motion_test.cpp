@@ -117,11 +117,11 @@ TEST_F(ReflectionMotionTest, AgreesWithOptics) {
 double motionTolerance(glm::dvec2 motion) {
   return 0x1p-8 * std::max(glm::length(motion), 8.0) + 0.009;
 }
-// The miss is taken before motion is rounded. The slopes that Newton's method takes of it err by 3e-7 radians a pixel
-// in single precision, and so a step of up to 8 pixels misses by 2.4e-6 more: 1/160 of half a pixel, with which a
-// mirror's miss is compared, and less of a wider lobe.
-constexpr double kMissTolerance = 1.0 / 160.0;
-// The two candidates of so many pixels miss alike, within a hundredth, or are tested next to a threshold.
+// The miss and the slopes that Newton's method takes of it err by 3e-7 radians a pixel in single precision, and so the
+// miss after a step of up to 16 pixels errs by 5.1e-6: 1/77 of half a pixel, with which a mirror's miss is compared,
+// and less of a wider lobe.
+constexpr double kMissTolerance = 1.0 / 77.0;
+// So many pixels are tested next to a threshold.
 constexpr double kUndecided = 0.03;
 
 TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
@@ -178,11 +178,16 @@ TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
             comparison.value(p, "no history", history[p].x, 0.0, most);
             return;
           }
-          const double perMiss = double(ReflectionMotionSettings{}.historyPerLobe);
-          const double least = std::min(perMiss / (e.miss + kMissTolerance), 16.0);
-          const double tolerance = e.history - std::min(least, e.history) + 0.02 * e.history;
-          comparison.value(p, "history", history[p].x, e.history, tolerance);
-          comparison.value(p, "confidence", confidence[p].x, e.history / 16.0, tolerance / 16.0 + 1.0 / 255.0);
+          // From the history of the largest miss to that of the smallest one within the tolerance.
+          const auto historyOf = [](double miss) {
+            return std::min(double(ReflectionMotionSettings{}.historyPerLobe) / std::max(miss, 1e-6), 16.0);
+          };
+          const double least = std::min(historyOf(e.miss + kMissTolerance), e.history);
+          const double most = std::max(historyOf(e.miss - kMissTolerance), e.history);
+          const double middle = 0.5 * (least + most);
+          const double tolerance = 0.5 * (most - least) + 0.02 * e.history;
+          comparison.value(p, "history", history[p].x, middle, tolerance);
+          comparison.value(p, "confidence", confidence[p].x, middle / 16.0, tolerance / 16.0 + 1.0 / 255.0);
         });
         comparison.expect(kUndecided);
       }
@@ -267,6 +272,7 @@ TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
   ReflectionRun joined(device(), *method, {.history = true});
   ReflectionRun apart(device(), *method, {.alone = false, .history = true});
   const Scene worlds[]{sphere(), bumpyWall(0.1), Mirror{0.5, 0.7}.scene()};
+  std::size_t shortened = 0;
   for (const Scene& world : worlds) {
     const bool zoom = &world == &worlds[2];
     SCOPED_TRACE(&world - worlds);
@@ -292,16 +298,12 @@ TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
       const Image<glm::dvec3> three = apart.view(view);
       Comparison comparison("view " + std::to_string(view));
       std::size_t seen = 0;
-      std::size_t shortened = 0;
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         comparison.compared();
         comparison.colour(p, one[p], three[p], kArithmetic * glm::abs(three[p]));
         seen += one[p].x != 0.0 ? 1 : 0;
-        shortened += one[p].z != 0.0 && one[p].x < 3.0 ? 1 : 0;
+        shortened += view == 1 && one[p].z != 0.0 && one[p].x < 3.0 ? 1 : 0;
       });
-      if (view == 1) {
-        EXPECT_GT(shortened, 100U);
-      }
       comparison.expect(0.0);
       EXPECT_GT(seen, 500U);
     }
@@ -317,6 +319,8 @@ TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
     });
     comparison.expect(0.0);
   }
+  // Bumps shorten history in most of these pixels, curved mirrors in few.
+  EXPECT_GT(shortened, 300U);
 }
 
 TEST_F(ReflectionMotionTest, HardCasesAreFinite) {

@@ -220,22 +220,24 @@ Reflected Search::find() {
     place += shown(before(image)) - shown(before(own.position));
   }
   double least = missAt(place);
-  const bool newton = whole;
-  if (newton) {
+  if (whole) {
     // Newton's method on the miss, with differences over a pixel.
-    const auto missBeyond = [&](glm::dvec2 beyond) { return miss(*shownAt(place, surface, whole, beyond), object); };
-    const glm::dvec3 m = missBeyond({});
-    const glm::dvec3 x = missBeyond({1.0, 0.0}) - m;
-    const glm::dvec3 y = missBeyond({0.0, 1.0}) - m;
+    const auto beyond = [&](glm::dvec2 pixels) { return *shownAt(place, surface, whole, pixels); };
+    const glm::dvec3 m = miss(beyond({}), object);
+    const glm::dvec3 x = miss(beyond({1.0, 0.0}), object) - m;
+    const glm::dvec3 y = miss(beyond({0.0, 1.0}), object) - m;
     const glm::dmat2 normal(glm::dot(x, x), glm::dot(x, y), glm::dot(x, y), glm::dot(y, y));
-    const glm::dvec2 step = -glm::inverse(normal) * glm::dvec2(glm::dot(x, m), glm::dot(y, m));
-    const glm::dvec2 corrected = place + step * std::min(1.0, 8.0 / glm::length(step));
-    const double found = missAt(corrected);
-    const bool alike = std::abs(found - least) <= kCloseMiss * least + kRoundingOfMiss;
-    result_.undecided |= alike && (place == surfaceAt || glm::distance(corrected, place) > kSamePlace);
-    if (found < least) {
-      least = found;
-      place = corrected;
+    const glm::dvec2 full = -glm::inverse(normal) * glm::dvec2(glm::dot(x, m), glm::dot(y, m));
+    const glm::dvec2 step = full * std::min(1.0, 16.0 / glm::length(full));
+    // By how much slopes of normals differ between the two sides of a square of pixels.
+    const glm::dvec3 twist =
+        beyond({}).normal - beyond({1.0, 0.0}).normal - beyond({0.0, 1.0}).normal + beyond({1.0, 1.0}).normal;
+    const double uneven = (glm::length(twist) - 1e-4) * glm::dot(step, step);
+    const bool close = std::abs(uneven - 0.5 * least) <= 0.5 * (kCloseMiss * least + kRoundingOfMiss);
+    result_.undecided |= close && glm::length(step) > kSamePlace;
+    if (uneven <= 0.5 * least) {
+      place += step;
+      least = glm::length(m + step.x * x + step.y * y);
     }
   }
   result_.followed = place != surfaceAt;
