@@ -11,21 +11,26 @@ namespace walr {
 
 static_assert(kLintCountWords <= kCounterWords && kCounterWords <= kLintFirstSample);  // "clear lint counters"
 
-fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buffer counters) {
-  fg::PassBuilder clear = graph.compute("clear lint counters", shaders::countClear);
-  clear.dispatch({1, 1});
-  counters = clear.store("counters", counters);
+fg::PassBuilder lintPass(fg::Graph& graph, const char* name, const fg::Shader& shader, const DenoiserInputs& inputs) {
   const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
-  fg::PassBuilder pass = graph.compute("lint inputs", shaders::lintInputs);
+  fg::PassBuilder pass = graph.compute(name, shader);
   pass.uniform("frameConstants", inputs.frame)
       .sample("lighting", inputs.lighting)
       .sample("depth", inputs.depth)
       .sample("normal", inputs.normal)
       .sample("motion", inputs.motion)
-      .sample("albedo", inputs.lobeAlbedo())
       .dispatch(extent);
   if (inputs.conventions.light.fullSize()) pass.texels(extent);
   specializeLight(pass, inputs.conventions.samples());
+  return pass;
+}
+
+fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buffer counters) {
+  fg::PassBuilder clear = graph.compute("clear lint counters", shaders::countClear);
+  clear.dispatch({1, 1});
+  counters = clear.store("counters", counters);
+  fg::PassBuilder pass = lintPass(graph, "lint inputs", shaders::lintInputs, inputs);
+  pass.sample("albedo", inputs.lobeAlbedo());
   return pass.update("counters", counters);
 }
 

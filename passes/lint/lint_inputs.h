@@ -24,6 +24,9 @@ inline constexpr std::uint64_t kLintBytes = kLintWords * sizeof(std::uint32_t);
 /// @returns its new version, whose words are those of shaders/lint/lint_inputs.h
 fg::Buffer addLintInputs(fg::Graph& graph, const DenoiserInputs& inputs, fg::Buffer counters);
 
+/// A pass over all pixels that reads what every pass of the linter does: constants, light, depth, normals and motion.
+fg::PassBuilder lintPass(fg::Graph& graph, const char* name, const fg::Shader& shader, const DenoiserInputs& inputs);
+
 /// With fewer pixels or pairs than this there is no finding.
 inline constexpr std::uint64_t kLeastLintSample = 100;
 

@@ -1,7 +1,8 @@
 // Specular light, and what is said of the things it reflects.
 #include "passes/lint/lint_specular.h"
 
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -12,16 +13,9 @@ namespace walr {
 
 fg::Buffer addLintSpecular(fg::Graph& graph, const LintSpecularInputs& from, fg::Buffer counters) {
   const DenoiserInputs& inputs = from.inputs;
-  const fg::Extent extent = graph.textureDesc(inputs.depth).extent;
   const bool motionHasDepth = inputs.conventions.motionDepth == InputConventions::MotionDepth::Given;
-  fg::PassBuilder pass = graph.compute("lint specular light", shaders::lintSpecular);
-  pass.uniform("frameConstants", inputs.frame)
-      .sample("lighting", inputs.lighting)
-      .sample("depth", inputs.depth)
-      .sample("normal", inputs.normal)
-      .sample("motion", inputs.motion)
-      .sample("specularAlbedo", inputs.specularAlbedo)
-      .dispatch(extent);
+  fg::PassBuilder pass = lintPass(graph, "lint specular light", shaders::lintSpecular, inputs);
+  pass.sample("specularAlbedo", inputs.specularAlbedo);
   const auto sampleIfPresent = [&](std::string_view constant, std::string_view binding, fg::Texture texture,
                                    bool wanted) {
     const bool present = texture.valid() && wanted;
@@ -34,8 +28,6 @@ fg::Buffer addLintSpecular(fg::Graph& graph, const LintSpecularInputs& from, fg:
   pass.specialize("kDistance", from.distances)
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
       .specialize("kMotionJittered", inputs.conventions.motionJittered);
-  if (inputs.conventions.light.fullSize()) pass.texels(extent);
-  specializeLight(pass, inputs.conventions.samples());
   return pass.update("counters", counters);
 }
 

@@ -1,6 +1,5 @@
 #include "samples/denoise/gpu_linter.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>

@@ -21,12 +21,8 @@ layout(std430) buffer counters { uint words[]; };
 
 const uint kFirstCount = 0u, kCounts = kLintInputWords;
 #include "lint/counts.glsl"
+#include "lint/surfaces.glsl"
 
-bool inside(ivec2 p) { return all(lessThan(p, textureSize(depth, 0))); }
-bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && z < frame.skyDepth; }
-bool isInfinity(float z) { return floatBitsToUint(z) == 0x7f800000u; }
-
-float depthAt(ivec2 p) { return texelFetch(depth, p, 0).x; }
 vec3 normalAt(ivec2 p) { return texelFetch(normal, p, 0).xyz; }
 vec3 albedoAt(ivec2 p) { return texelFetch(albedo, p, 0).xyz; }
 bool isUsable(vec3 n) { return isFinite(n) && isFinite(length(n)) && length(n) > 0.0; }
@@ -64,8 +60,7 @@ void countPair(ivec2 p, ivec2 q, float z, vec3 n, LightSample here, vec3 diffuse
   if (!here.exists || !there.exists) return;
   const vec3 light = here.radiance, otherLight = there.radiance;
   if (!isUsable(n) || !isUsable(otherNormal) || !isFinite(light) || !isFinite(otherLight)) return;
-  if (!isSurfaceDepth(otherDepth) || abs(otherDepth - z) > 0.02 * z) return;
-  if (dot(n, otherNormal) < 0.99 * length(n) * length(otherNormal)) return;
+  if (!areOnOneSurface(z, n, otherDepth, otherNormal)) return;
   bool follows;
   const uint contrast = albedoContrast(light, otherLight, diffuse, otherDiffuse, follows);
   count((follows ? kLintFollowsAlbedo : kLintIgnoresAlbedo) + contrast - 1u, contrast > 0u);

@@ -35,6 +35,7 @@ layout(std430) buffer counters { uint words[]; };
 
 const uint kFirstCount = kLintInputWords, kCounts = kLintCountWords - kLintInputWords;
 #include "lint/counts.glsl"
+#include "lint/surfaces.glsl"
 
 struct Pixel {
   ivec2 place;
@@ -46,10 +47,6 @@ struct Pixel {
   float distance;
 };
 
-bool inside(ivec2 p) { return all(lessThan(p, textureSize(depth, 0))); }
-bool isInfinity(float x) { return floatBitsToUint(x) == 0x7f800000u; }
-bool isSurfaceDepth(float z) { return isFinite(z) && z > 0.0 && z < frame.skyDepth; }
-float depthAt(ivec2 p) { return texelFetch(depth, p, 0).x; }
 float largest(vec3 v) { return max(max(v.x, v.y), v.z); }
 
 vec3 positionAt(ivec2 p) { return rayThrough(frame.rayFromPixel, pixelCentre(p)) * depthAt(p); }
@@ -80,9 +77,8 @@ void countValues(Pixel at) {
 void countPair(Pixel here, ivec2 q) {
   if (!kRoughness || !inside(q)) return;
   const Pixel there = pixelAt(q);
-  if (!here.light.exists || !there.light.exists || !isSurfaceDepth(there.depth)) return;
-  if (abs(there.depth - here.depth) > 0.02 * here.depth) return;
-  if (!(dot(here.normal, there.normal) >= 0.99 * length(here.normal) * length(there.normal))) return;
+  if (!here.light.exists || !there.light.exists) return;
+  if (!areOnOneSurface(here.depth, here.normal, there.depth, there.normal)) return;
   if (!(abs(here.roughness - there.roughness) <= 0.02)) return;
   bool follows;
   const uint contrast =

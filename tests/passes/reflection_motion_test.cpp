@@ -272,7 +272,6 @@ TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
   ReflectionRun joined(device(), *method, {.history = true});
   ReflectionRun apart(device(), *method, {.alone = false, .history = true});
   const Scene worlds[]{sphere(), bumpyWall(0.1), Mirror{0.5, 0.7}.scene()};
-  std::size_t shortened = 0;
   for (const Scene& world : worlds) {
     const bool zoom = &world == &worlds[2];
     SCOPED_TRACE(&world - worlds);
@@ -298,12 +297,17 @@ TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
       const Image<glm::dvec3> three = apart.view(view);
       Comparison comparison("view " + std::to_string(view));
       std::size_t seen = 0;
+      std::size_t shortened = 0;
       reference::forEachPixel(kSize, [&](glm::ivec2 p) {
         comparison.compared();
         comparison.colour(p, one[p], three[p], kArithmetic * glm::abs(three[p]));
         seen += one[p].x != 0.0 ? 1 : 0;
-        shortened += view == 1 && one[p].z != 0.0 && one[p].x < 3.0 ? 1 : 0;
+        shortened += one[p].z != 0.0 && one[p].x < 3.0 ? 1 : 0;
       });
+      if (view == 1) {
+        // Slopes leave hardly any miss on a smooth curved mirror.
+        EXPECT_GT(shortened, zoom ? 5U : 100U);
+      }
       comparison.expect(0.0);
       EXPECT_GT(seen, 500U);
     }
@@ -319,8 +323,6 @@ TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
     });
     comparison.expect(0.0);
   }
-  // Bumps shorten history in most of these pixels, curved mirrors in few.
-  EXPECT_GT(shortened, 300U);
 }
 
 TEST_F(ReflectionMotionTest, HardCasesAreFinite) {

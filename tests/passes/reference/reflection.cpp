@@ -233,8 +233,8 @@ Reflected Search::find() {
     const glm::dvec3 twist =
         beyond({}).normal - beyond({1.0, 0.0}).normal - beyond({0.0, 1.0}).normal + beyond({1.0, 1.0}).normal;
     const double uneven = (glm::length(twist) - 1e-4) * glm::dot(step, step);
-    const bool close = std::abs(uneven - 0.5 * least) <= 0.5 * (kCloseMiss * least + kRoundingOfMiss);
-    result_.undecided |= close && glm::length(step) > kSamePlace;
+    const bool either = std::abs(uneven - 0.5 * least) <= 0.5 * (kCloseMiss * least + kRoundingOfMiss);
+    result_.undecided |= either && glm::length(step) > kSamePlace;
     if (uneven <= 0.5 * least) {
       place += step;
       least = glm::length(m + step.x * x + step.y * y);
