@@ -76,6 +76,7 @@ struct GpuDenoiser::State {
     for (const LightImages& light : declared.lights) {
       lighting.push_back(makeUpload(gpu, light.lighting, framesInFlight));
       outputs.push_back(graph.readBack(light.output));
+      if (light.lightDirection.valid()) lightDirections.push_back(graph.readBack(light.lightDirection));
     }
     if (layout.conventions.specular) roughness.emplace(makeUpload(gpu, declared.inputs.roughness, framesInFlight));
     if (declared.inputs.specularMotion.valid())
@@ -83,7 +84,6 @@ struct GpuDenoiser::State {
     if (given.objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
     for (const DebugView& view : declared.views) views.push_back(graph.readBack(view.texture));
     if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
-    if (wanted.lightDirection) lightDirection = graph.readBack(declared.inspection.lightDirection());
   }
 
   UploadedTexture makeUpload(const GpuDevice& gpu, fg::Texture texture, std::uint32_t slots) {
@@ -112,8 +112,8 @@ struct GpuDenoiser::State {
   std::vector<ReadbackGraph::Index> outputs;  ///< Of each light.
   std::vector<ReadbackGraph::Index> views;
   std::optional<ReadbackGraph::Index> counters;
-  std::optional<ReadbackGraph::Index> lightDirection;
-  std::deque<Frame> frames;  ///< Frames in flight, except that of `run`.
+  std::vector<ReadbackGraph::Index> lightDirections;  ///< Of each light, if they are wanted.
+  std::deque<Frame> frames;                           ///< Frames in flight, except that of `run`.
 };
 
 OptionalImages optionalImages(const RecognizedLayout& layout) {
@@ -170,8 +170,8 @@ DenoisedPicture GpuDenoiser::State::finish() {
     const auto texels = graph.read<std::array<float, 4>>(views[i], slot);
     picture.views.push_back({declared.views[i].name, viewImage(texels, width, height)});
   }
-  if (lightDirection) {
-    picture.slopes = slopeImages(graph.read<glm::uvec2>(*lightDirection, slot), width, height);
+  if (!lightDirections.empty()) {
+    picture.slopes = slopeImages(graph.read<glm::uvec2>(lightDirections.front(), slot), width, height);
   }
   if (counters) {
     const auto words = graph.read<std::uint32_t>(*counters, slot);

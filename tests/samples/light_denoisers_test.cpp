@@ -1,5 +1,6 @@
 // Two lights that share their guides have the pictures of each light alone, to the bit.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -170,6 +171,29 @@ TEST(LightDenoisers, AllLightsAreThoseOfDenoisersOfTheirOwn) {
     // It has a history.
     EXPECT_EQ(std::ranges::equal(all.specular.values(), specular.frame.specular.values()), choice.method == "none");
   }
+  EXPECT_NO_THROW(gpu.refuseMessages());
+}
+
+TEST(LightDenoisers, SlopesAreThoseOfTheFirstLight) {
+  GpuDevice gpu({.device = {}, .validation = true});
+  Frame frame = frames().front();  // Of a wall, here with ripples: without them, light has no slope.
+  for (std::size_t i = 0; i < frame.normal.pixelCount(); ++i) {
+    const glm::vec3 normal = glm::normalize(glm::vec3(std::sin(0.5F * static_cast<float>(i)), 0.2F, 1.0F));
+    for (int c = 0; c < 3; ++c) frame.normal.pixel(i)[c] = normal[c];
+  }
+  const auto run = [&](std::initializer_list<Light> lights) {
+    std::vector<LightMethod> methods;
+    for (const Light light : lights) methods.push_back(lightMethod({"walr"}, light));
+    LightDenoisers denoiser(gpu, methods, kExtent, projectLayout(), {.lightDirection = true}, 1, {.objectIds = true});
+    denoiser.submit(denoiser.pack(frame));
+    return denoiser.finish()->slopes;
+  };
+  const LightSlopes both = run({Light::Indirect, Light::Direct});
+  const LightSlopes indirect = run({Light::Indirect}), direct = run({Light::Direct});
+  for (std::size_t axis = 0; axis < both.size(); ++axis) {
+    EXPECT_TRUE(std::ranges::equal(both.at(axis).values(), indirect.at(axis).values()));
+  }
+  EXPECT_FALSE(std::ranges::equal(both.front().values(), direct.front().values()));
   EXPECT_NO_THROW(gpu.refuseMessages());
 }
 
