@@ -4,7 +4,7 @@
 #include "samples/command_line/program.h"
 
 int main(int argc, char** argv) {
-  CLI::App program("walr: real-time denoising of 1-sample-per-pixel diffuse indirect light", "walr");
+  CLI::App program("walr: real-time denoising of diffuse and specular light of 1 sample per pixel", "walr");
   program.set_version_flag("--version", WALR_VERSION);
   program.require_subcommand(1);
   for (const walr::RegisterCommand registerCommand : walr::kCommands) {

@@ -1,5 +1,5 @@
 /*
- * walr: a real-time denoiser for diffuse indirect light. C11 and C++.
+ * walr: a real-time denoiser for diffuse and specular light. C11 and C++.
  *
  * "The host" is the engine that calls this library. A denoiser records its passes into a command buffer of the host. It
  * allocates its own memory, or takes it from the host, and places the barriers between its passes. The host states the

@@ -9,7 +9,7 @@ from conan.tools.files import copy
 
 class Walr(ConanFile):
     name = "walr"
-    description = "Real-time denoiser for diffuse indirect lighting, as a frame-graph plug-in"
+    description = "Real-time denoiser for path-traced diffuse and specular light, as a frame-graph plug-in"
     license = "MIT"
     settings = "os", "arch", "compiler", "build_type"
     package_type = "shared-library"  # The static library and the C++ ones come along.
