@@ -36,6 +36,9 @@ Accumulated withTaps(const AccumulationWithTaps& accumulated) {
 }  // namespace
 
 TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStages& stages) {
+  if (stages.spatialOnly && inputs.conventions.specular) {
+    throw std::invalid_argument("setting spatial-only is for diffuse light: specular light is accumulated first");
+  }
   if (stages.spatialOnly && !inputs.conventions.light.everyPixel()) {
     throw std::invalid_argument(
         "setting spatial-only needs a sample of light at every pixel: sparse light is accumulated first");

@@ -225,9 +225,9 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
 void printSummary(std::ostream& stream, const BenchReport& report) {
   for (const SequenceReport& sequence : report.sequences) printSequence(stream, sequence);
   if (report.sequences.empty()) return;
-  stream << "\nMeans over the frames after the first " << kWarmUpFrames << "; time x: median ratio of the time to "
-         << kBaseline << "'s on the same frame" << (report.device.software ? ", CPU times, not those of a GPU" : "")
-         << ".\n";
+  stream << "\nMeans over the frames after the first " << kWarmUpFrames
+         << ", or all if there are no more; time x: median ratio of the time to " << kBaseline << "'s on the same frame"
+         << (report.device.software ? ", CPU times, not those of a GPU" : "") << ".\n";
 }
 
 }  // namespace walr

@@ -61,7 +61,7 @@ FiguresByRoughness meanByRoughness(const std::vector<FrameErrors>& frames);
 /// The worst value of all frames; nullopt for metrics without better and worse.
 std::optional<double> worstOf(const std::vector<FrameErrors>& frames, const Metric& metric);
 
-/// The frames without the first `kWarmUpFrames`, in which history builds up.
+/// The frames without the first `kWarmUpFrames`, in which history builds up; all if there are no more.
 std::vector<FrameErrors> afterWarmUp(const std::vector<FrameErrors>& frames);
 
 }  // namespace walr

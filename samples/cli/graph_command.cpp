@@ -85,8 +85,10 @@ void write(const std::string& text, const std::string& file) {
   }
 }
 
-void listSettings(Denoiser& method) {
+/// @param lights  whose settings are listed
+void listSettings(Denoiser& method, LightKinds lights) {
   for (const SettingText& setting : method.settings()) {
+    if (!haveInCommon(setting.lights, lights)) continue;
     std::cout << setting.name << " = " << setting.value << "  (" << setting.range
               << (setting.unit.empty() ? "" : " " + setting.unit) << ")\n    " << setting.description << " ["
               << setting.source << "]\n";
@@ -128,7 +130,7 @@ void printGraph(const GraphOptions& options) {
   const LightKinds kinds{.diffuse = options.lights != "specular", .specular = options.lights != "diffuse"};
   const std::unique_ptr<Denoiser> method = makeMethod(options.method, kinds);
   if (options.listSettings) {
-    listSettings(*method);
+    listSettings(*method, options.lights == "specular" ? kinds : LightKinds{.diffuse = true, .specular = true});
     return;
   }
   InputConventions conventions;
@@ -181,8 +183,10 @@ void registerGraph(CLI::App& program) {
       ->type_name("NAME");
   format->require_option(0, 1);
   command->add_option("--output", options->output, "Write to a file instead of standard output")->type_name("FILE");
-  command->add_flag("--list-settings", options->listSettings,
-                    "Instead of a plan, list the method's settings with value, range, unit and source");
+  command->add_flag(
+      "--list-settings", options->listSettings,
+      "Instead of a plan, list the method's settings with value, range, unit and source; with --light specular, "
+      "those that act on it");
   command->add_flag(
       "--list-passes", options->listPasses,
       "Instead of a plan, list all pass types that a host can create by name, with ports, settings and passes");

@@ -135,6 +135,10 @@ TEST_F(ProgramTest, DenoisesSpecularLight) {
 
   expectFailure(denoise({"--light", "specular", "--method", "walr_paper"}), kUsage,
                 {"'walr_paper'", "diffuse light only", "accumulate"});
+  for (const char* const method : {"walr", "svgf"}) {
+    expectFailure(denoise({"--light", "specular", "--method", method, "--set", "spatial-only=on"}), kUsage,
+                  {"spatial-only", "diffuse light"});
+  }
   expectFailure(denoise({"--light", "specular", "--composite"}), kUsage, {"--composite", "--light all"});
   const ProcessResult views = walr({"denoise", "--list-views", "--light", "specular", "--method", "accumulate"});
   expectSuccess(views);
@@ -580,10 +584,16 @@ TEST_F(ProgramTest, GraphPrintsThePlanWithoutADevice) {
 }
 
 TEST_F(ProgramTest, GraphListsSettings) {
-  const ProcessResult result = walr({"graph", "--list-settings"});
-  expectSuccess(result);
+  const ProcessResult all = walr({"graph", "--list-settings"});
+  const ProcessResult ofSpecularLight = walr({"graph", "--light", "specular", "--list-settings"});
+  expectSuccess(all);
+  expectSuccess(ofSpecularLight);
+  const auto lists = [](const ProcessResult& result, const SettingText& setting) {
+    return result.out.find(setting.name + " = " + setting.value) != std::string::npos;
+  };
   for (const SettingText& setting : makeDenoiser("walr")->settings()) {
-    EXPECT_NE(result.out.find(setting.name + " = " + setting.value), std::string::npos) << setting.name;
+    EXPECT_TRUE(lists(all, setting)) << setting.name;
+    EXPECT_EQ(lists(ofSpecularLight, setting), setting.lights.specular) << setting.name;
   }
 }
 
