@@ -146,7 +146,7 @@ class PassCheck {
           "pass " + quoted(pass_.name) + " accesses " + quoted(resource.name) +
               " twice and writes it; declare one access that reads and writes (update), or use two textures");
     } else if (std::holds_alternative<TextureDesc>(resource.desc) && a.layout != b.layout &&
-               meets(resource, first, second)) {
+               (resource.history != kNone || meets(resource, first, second))) {
       findings_.error(code::kTwoLayouts, pass_, second,
                       "pass " + quoted(pass_.name) + " reads " + quoted(resource.name) + " as " + std::string(a.name) +
                           " and as " + std::string(b.name) +

@@ -75,7 +75,7 @@ void checkSize(const ResourceDecl& resource, Findings& findings) {
   }
   const auto levels = static_cast<std::uint32_t>(std::bit_width(std::max(extent.width, extent.height)));
   if (texture.mipLevels > levels) {
-    findings.error(code::kSubresourceRange, resource,
+    findings.error(code::kTooLarge, resource,
                    "texture '" + resource.name + "' has " + std::to_string(texture.mipLevels) +
                        " mip levels, but its extent allows only " + std::to_string(levels));
   }

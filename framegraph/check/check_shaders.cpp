@@ -106,7 +106,6 @@ class ShaderCheck {
   }
 
   void checkDeclared(const ShaderBinding& binding) {
-    if (binding.type == VK_DESCRIPTOR_TYPE_SAMPLER) return;
     if (std::ranges::find(pass_.accesses, binding.name, &AccessDecl::binding) != pass_.accesses.end()) return;
     findings_.error(code::kBindingNotDeclared, pass_,
                     start() + "binding '" + std::string(binding.name) + "', " + describe(binding) +

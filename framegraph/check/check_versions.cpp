@@ -113,9 +113,12 @@ class VersionCheck {
                       "the two images of history '" + history.name + "' are described differently");
     }
     const bool read = !topology_.uses(history.previous, 0).readers.empty();
-    if (read && current.versions == 0) {
-      findings_.error(code::kHistoryNeverWritten, previous,
-                      "history '" + history.name + "' is read, but no pass writes its `current`");
+    const bool exported = std::ranges::any_of(
+        graph_.exports, [&](const ExportDecl& other) { return other.resource.resource == history.previous; });
+    if ((read || exported) && current.versions == 0) {
+      findings_.error(
+          code::kHistoryNeverWritten, previous,
+          "history '" + history.name + "' is " + (read ? "read" : "exported") + ", but no pass writes its `current`");
     }
     if (current.versions > 1) {
       findings_.error(code::kHistoryWrittenTwice, current,

@@ -27,7 +27,7 @@ struct AccessInfo {
 const AccessInfo& accessInfo(Access access);
 
 /// Usage flags that a resource needs for its host's use of it in a state: for the layout and for the accesses of this
-/// state.
+/// state, with SHADER_READ and SHADER_WRITE for all that they stand for. MEMORY_READ and MEMORY_WRITE tell no use.
 VkImageUsageFlags imageUsageIn(const ExternalState& state);
 VkBufferUsageFlags bufferUsageIn(const ExternalState& state);
 

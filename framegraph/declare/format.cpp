@@ -6,8 +6,8 @@
 namespace fg {
 namespace {
 
-/// Formats without a fallback are those that every device supports as storage images (Vulkan specification, "Required
-/// Format Support").
+/// Colour formats without a fallback are those that every device supports as storage images (Vulkan specification,
+/// "Required Format Support"). Of formats for depth, every device has D16 and one of each pair of fallbacks.
 constexpr std::array kFormats = {
     FormatInfo{VK_FORMAT_R8_UNORM, "R8_UNORM", 1, VK_FORMAT_R8G8B8A8_UNORM},
     FormatInfo{VK_FORMAT_R8_UINT, "R8_UINT", 1, VK_FORMAT_R32_UINT},

@@ -12,8 +12,8 @@ struct FormatInfo {
   VkFormat format = VK_FORMAT_UNDEFINED;
   std::string_view name;            ///< Without prefix: "R16G16B16A16_SFLOAT"; "unknown" for formats not in the table.
   std::uint32_t bytesPerTexel = 0;  ///< 0 for formats not in the table.
-  /// A format that more devices support in every use, with at least the same components and range; undefined if there
-  /// is none.
+  /// A format to try on a device that lacks this one: with at least the same components, and a range that is no
+  /// smaller; undefined if there is none.
   VkFormat fallback = VK_FORMAT_UNDEFINED;
 };
 

@@ -207,13 +207,15 @@ std::vector<ReflectedBinding> Reflector::bindings() const {
       {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
       {SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
       {SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-      {SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, VK_DESCRIPTOR_TYPE_SAMPLER},
       {SPVC_RESOURCE_TYPE_ACCELERATION_STRUCTURE, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR},
   };
   spvc_set active = nullptr;
   check(spvc_compiler_get_active_interface_variables(compiler_, &active));
   spvc_resources resources = nullptr;
   check(spvc_compiler_create_shader_resources_for_active_variables(compiler_, &resources, active));
+  for (const spvc_reflected_resource& resource : list(resources, SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS)) {
+    throw std::runtime_error("binding '" + name(resource) + "' is a sampler without a texture: declare a sampler2D");
+  }
   std::vector<ReflectedBinding> result;
   for (const Kind& kind : kKinds) {
     for (const spvc_reflected_resource& resource : list(resources, kind.resource)) {

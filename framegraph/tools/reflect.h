@@ -41,8 +41,8 @@ struct Reflection {
 ///   `writeonly` counts as read and written.
 ///
 /// @throws std::runtime_error if the SPIR-V cannot be parsed, or is not supported: another stage, a descriptor set
-///         other than 0, an array of descriptors, two variables at one binding, a work group size that is a
-///         specialization constant
+///         other than 0, an array of descriptors, a sampler without a texture, two variables
+///         at one binding, a work group size that is a specialization constant
 Reflection reflect(const std::vector<std::uint32_t>& code);
 
 }  // namespace fg::tools

@@ -69,7 +69,7 @@ class Replay {
   /// True if even and odd frames use different images or buffers for the resource.
   [[nodiscard]] bool isDoubled(std::uint32_t resource) const {
     const std::uint32_t heap = plan_.resources[resource].heap;
-    const bool swaps = heap != kNone && plan_.heaps[heap].partner != kNone;
+    const bool swaps = heap < plan_.heaps.size() && plan_.heaps[heap].partner != kNone;
     return swaps || graph_.resources[resource].lifetime == Lifetime::HistoryCurrent;
   }
 

@@ -99,8 +99,6 @@ Instance::Instance(const InstanceOptions& options, PFN_vkGetInstanceProcAddr ent
     layers.push_back(kValidationLayer);
     validation.emplace(hasExtension(entry, kValidationLayer, kLayerSettingsExtension));
     if (validation->extension() != nullptr) extensions.push_back(validation->extension());
-  }
-  if (options.validation || (options.debugLabels && hasExtension(entry, nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))) {
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   }
 

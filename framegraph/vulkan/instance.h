@@ -23,9 +23,9 @@ std::optional<std::uint32_t> layerVersion(PFN_vkGetInstanceProcAddr entry, std::
 
 struct InstanceOptions {
   std::string applicationName = "walr";
-  bool debugLabels = false;  ///< Enable VK_EXT_debug_utils if available: names and labels in captures.
-  bool validation = false;   ///< The Khronos validation layer with synchronization validation; implies debug labels.
-  MessageSink sink;          ///< Receives validation messages; called only with `validation`.
+  /// The Khronos validation layer with synchronization validation. Also enables VK_EXT_debug_utils: names and labels.
+  bool validation = false;
+  MessageSink sink;                     ///< Receives validation messages; called only with `validation`.
   std::vector<const char*> extensions;  ///< Additional ones, for instance those of a window system.
 };
 

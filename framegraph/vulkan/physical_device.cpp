@@ -199,10 +199,13 @@ const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, std::st
   if (choice.empty()) return *std::ranges::min_element(devices, {}, [](const auto& d) { return rank(d.type); });
   std::uint32_t index = 0;
   const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-  const bool isIndex = error == std::errc() && end == choice.data() + choice.size();
-  const auto device = std::ranges::find_if(devices, [&](const PhysicalDevice& candidate) {
-    return isIndex ? candidate.index == index : lower(candidate.name).find(lower(choice)) != std::string::npos;
-  });
+  const bool isNumber = error == std::errc() && end == choice.data() + choice.size();
+  auto device = isNumber ? std::ranges::find(devices, index, &PhysicalDevice::index) : devices.end();
+  if (device == devices.end()) {
+    device = std::ranges::find_if(devices, [&](const PhysicalDevice& candidate) {
+      return lower(candidate.name).find(lower(choice)) != std::string::npos;
+    });
+  }
   if (device == devices.end()) {
     throw Unsupported("no Vulkan device '" + std::string(choice) + "'; available devices:\n" + listing(devices),
                       VK_ERROR_INITIALIZATION_FAILED);

@@ -50,8 +50,10 @@ VkBufferImageCopy StagedImage::copyRegion() const {
 void StagedImage::recordUpload(VkCommandBuffer commandBuffer, std::uint32_t slot) const {
   VkImageMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-  // Waits for all reads in the previous frame. Only the graph knows their stages, and it does not export this image.
+  // Waits for all reads in the previous frame. Only the graph knows their stages, and it does not export this image. If
+  // it reads nothing, the last copy is to be waited for.
   barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  barrier.srcAccessMask = kUploaded.access;
   barrier.dstStageMask = kUploaded.stage;
   barrier.dstAccessMask = kUploaded.access;
   barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;

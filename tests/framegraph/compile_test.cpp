@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "framegraph/declare/access.h"
 #include "framegraph/inspect/inspect.h"
 #include "framegraph/verify/verify.h"
 #include "tests/framegraph/test_shaders.h"
@@ -13,6 +14,17 @@ namespace {
 
 using test::kColor;
 using test::recordNothing;
+
+TEST(HostStates, ShaderReadStandsForAllThatShadersRead) {
+  constexpr VkPipelineStageFlags2 kStage = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+  EXPECT_EQ(imageUsageIn({kStage, VK_ACCESS_2_SHADER_READ_BIT, VK_IMAGE_LAYOUT_GENERAL}),
+            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT);
+  EXPECT_EQ(imageUsageIn({kStage, VK_ACCESS_2_SHADER_READ_BIT, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL}),
+            VK_IMAGE_USAGE_SAMPLED_BIT);
+  EXPECT_EQ(imageUsageIn({kStage, VK_ACCESS_2_SHADER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL}), VK_IMAGE_USAGE_STORAGE_BIT);
+  EXPECT_EQ(bufferUsageIn({kStage, VK_ACCESS_2_SHADER_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED}),
+            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
 
 TEST(Compile, ChainOfPassesSharesMemoryAndHasOneBarrierPerAccess) {
   Graph graph;

@@ -210,6 +210,13 @@ TEST_F(DiagnosticsTest, HistoryNeverWritten) {
   expect(code::kHistoryNeverWritten, "", "past.previous", line);
 }
 
+TEST_F(DiagnosticsTest, ExportedHistoryNeverWritten) {
+  const History history = graph.history("past", kColor);
+  const auto line = __LINE__ - 1;
+  graph.exported(history.previous, kSampled);
+  expect(code::kHistoryNeverWritten, "", "past.previous", line);
+}
+
 TEST_F(DiagnosticsTest, HistoryWrittenTwice) {
   const History history = graph.history("past", kColor);
   const auto line = __LINE__ - 1;
@@ -336,6 +343,8 @@ TEST_F(DiagnosticsTest, SizesThatNoDeviceHas) {
       {VK_FORMAT_R16G16B16A16_SFLOAT, {1U << 31, 1U << 31}},
       {VK_FORMAT_R8_UNORM, {3'037'000'500, 3'037'000'500}},
       {.format = VK_FORMAT_R8_UNORM, .extent = {4, 4}, .arrayLayers = kMost},
+      {.format = VK_FORMAT_R8_UNORM, .extent = {4, 4}, .mipLevels = kMost, .arrayLayers = 4},
+      {.format = VK_FORMAT_R8_UNORM, .extent = {4, 4}, .mipLevels = 4},
   };
   for (const TextureDesc& texture : textures) {
     graph = Graph();
@@ -384,6 +393,17 @@ TEST_F(DiagnosticsTest, IndirectArgumentsPastTheEnd) {
   const auto line = __LINE__ - 1;
   pass.dispatchIndirect(arguments, 8);
   expect(code::kIndirectArguments, "filter", "arguments", line);
+}
+
+TEST_F(DiagnosticsTest, TwoLayoutsOfPartsOfAHistoryInOnePass) {
+  TextureDesc desc = kColor;
+  desc.mipLevels = 2;
+  const History history = graph.history("past", desc);
+  graph.callback("writer", recordNothing).access(history.current, Access::StorageWrite);
+  auto pass = graph.callback("reader", recordNothing);
+  pass.access(history.previous, Access::SampledRead, {0, 1, 0, 1});
+  pass.access(history.previous, Access::StorageRead, {1, 1, 0, 1}).sideEffects();
+  expect(code::kTwoLayouts, "reader", "past.previous");
 }
 
 TEST_F(DiagnosticsTest, TwoLayoutsInOnePass) {

@@ -42,12 +42,13 @@ TEST(ChooseDevice, ByIndexByPartOfTheNameAndByType) {
   const std::vector<vk::PhysicalDevice> devices = {
       fakeDevice(0, "llvmpipe", VK_PHYSICAL_DEVICE_TYPE_CPU),
       fakeDevice(1, "Integrated Thing", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU),
-      fakeDevice(2, "Discrete Thing", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU),
+      fakeDevice(2, "Discrete Thing 7600", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU),
   };
   EXPECT_EQ(vk::choose(devices, "").index, 2u);
   EXPECT_EQ(vk::choose(devices, "0").index, 0u);
   EXPECT_EQ(vk::choose(devices, "LLVM").index, 0u);
   EXPECT_EQ(vk::choose(devices, "thing").index, 1u);
+  EXPECT_EQ(vk::choose(devices, "7600").index, 2u);
   const std::string message = errorText<vk::Unsupported>([&] { (void)vk::choose(devices, "radeon"); });
   expectContains(message, {"no Vulkan device 'radeon'"});
   expectContains(message, {"1: Integrated Thing"});

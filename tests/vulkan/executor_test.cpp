@@ -239,6 +239,18 @@ TEST_F(ExecutorTest, AnUploadWaitsUntilThePreviousFrameHasRead) {
   queue.waitAll();
 }
 
+// Likewise. A graph that leaves the image out orders nothing between the copies.
+TEST_F(ExecutorTest, AnUploadWaitsForTheOneBeforeIfNothingReadsIt) {
+  const vk::StagedImage image(context(), kTexture, VK_IMAGE_USAGE_SAMPLED_BIT, vk::StagedImage::Direction::Upload,
+                              kFramesInFlight, "in");
+  vk::FrameQueue queue(context(), device().queue());
+  const vk::Frame frame = queue.begin();
+  image.recordUpload(frame.commandBuffer, 0);
+  image.recordUpload(frame.commandBuffer, 1);
+  queue.submit(frame);
+  queue.waitAll();
+}
+
 /// The texels that a frame writes to a bound image of the host.
 std::vector<std::uint32_t> frameInto(const vk::StagedImage& image, vk::Executor& executor, vk::FrameQueue& queue) {
   const vk::Frame frame = queue.begin();

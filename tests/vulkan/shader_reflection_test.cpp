@@ -1,5 +1,13 @@
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
+#include "framegraph/tools/reflect.h"
 #include "tests/vulkan/shaders.h"
 
 namespace fg {
@@ -40,6 +48,20 @@ TEST(ShaderReflection, TellsWhatTheShaderReallyBinds) {
   EXPECT_EQ(shader.localSize[0], 8u);
   EXPECT_EQ(shader.localSize[1], 4u);
   EXPECT_EQ(shader.localSize[2], 2u);
+}
+
+TEST(ShaderReflection, RefusesASamplerWithoutATexture) {
+  std::ifstream file(SEPARATE_SAMPLER, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
+  std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
+  ASSERT_FALSE(words.empty());
+  try {
+    (void)tools::reflect(words);
+    FAIL() << "it was not refused";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()), "binding 'nearest' is a sampler without a texture: declare a sampler2D");
+  }
 }
 
 TEST(ShaderReflection, LeavesNamesOutOfTheModule) {
