@@ -7,6 +7,7 @@
 #include <span>
 
 #include "samples/bench/batch.h"
+#include "samples/denoise/packed_frame.h"
 #include "samples/denoise/progress.h"
 #include "samples/errors.h"
 #include "samples/image/file_output.h"
@@ -105,6 +106,7 @@ std::vector<NamedSequence> openSequences(const std::vector<std::filesystem::path
           ": no frame has a reference (ref_FFFF.exr), so no errors can be measured. "
           "Render references for some frames, or use 'walr denoise --json', which reports times without them");
     }
+    checkCameras(named.sequence);
     if (std::ranges::find(sequences, named.name, &NamedSequence::name) != sequences.end()) {
       throw InputError("two sequences have the name '" + named.name +
                        "': the report identifies sequences by the names of their folders, so rename one");

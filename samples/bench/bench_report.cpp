@@ -219,7 +219,7 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   for (const MethodHardCase& result : report.methodHardCases) {
     document["method_hard_cases"].push_back(methodHardCaseJson(result));
   }
-  return document.dump(1) + "\n";
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void printSummary(std::ostream& stream, const BenchReport& report) {

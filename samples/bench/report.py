@@ -133,7 +133,7 @@ def against_baseline(bench):
 def hardest_places(bench, sequence, frame, count=3):
     """Top left corners, and the size, of the non-overlapping squares in which the filters' mean FLIP is largest."""
     flip = np.mean([bench.picture(sequence, n + ".errors", frame)[:, :, 2] for n in bench.filters], axis=0)
-    size = max(8, flip.shape[0] // 5)
+    size = min(max(8, flip.shape[0] // 5), *flip.shape)
     total = np.pad(np.nan_to_num(flip).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
     sums = total[size:, size:] - total[:-size, size:] - total[size:, :-size] + total[:-size, :-size]
     places = []

@@ -83,7 +83,8 @@ std::optional<RunRecord> RunStore::find(const std::string& sequence, const std::
 
 void RunStore::save(const std::string& sequence, const RunRecord& record, const std::string& key) const {
   prepareOutputDirectory(folder_ / sequence);
-  const std::string text = Json{{"key", key}, {"run", toJson(record)}}.dump(1) + "\n";
+  const std::string text =
+      Json{{"key", key}, {"run", toJson(record)}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
   writeFileAtomically(file(sequence, record.variant), text);
 }
 

@@ -29,6 +29,7 @@
 #include "samples/denoise/pipeline.h"
 #include "samples/denoise/progress.h"
 #include "samples/denoise/report.h"
+#include "samples/errors.h"
 #include "samples/image/file_output.h"
 #include "samples/sequence/sequence.h"
 
@@ -143,6 +144,7 @@ void listViews(const DenoiseOptions& options) {
 void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
   const std::vector<ViewInfo> views = viewsOf(options, method);
   for (const std::string& wanted : options.views) {
+    if (std::ranges::count(options.views, wanted) > 1) throw UsageError("--view " + wanted + ": give each view once");
     const auto isWanted = [name = wanted.substr(0, wanted.find('.'))](const ViewInfo& view) {
       return view.name == name;
     };
@@ -231,6 +233,15 @@ LightDenoisers makeDenoisers(const DenoiseOptions& options, const GpuDevice& dev
   }
 }
 
+/// @throws InputError if a composite would add light that only some pixels have
+void refuseHoles(const DenoiseOptions& options, std::span<const Light> denoised, const Sequence& sequence) {
+  const bool added = options.output.composite && std::ranges::find(denoised, Light::Indirect) == denoised.end();
+  if (!added || sequence.denoiserLayout().conventions.light.everyPixel()) return;
+  throw InputError(
+      "--composite: indirect light has samples at some pixels only, and --light " + options.light +
+      " does not denoise it, so that the pictures would have holes. Give --light both, or leave out --composite.");
+}
+
 /// The report of a run, without frames.
 DenoiseReport newReport(const DenoiseOptions& options, const std::string& light, std::span<const LightMethod> methods,
                         const GpuDevice& device, const Sequence& sequence) {
@@ -277,7 +288,10 @@ void denoise(DenoiseOptions& options) {
   refuseOutputIntoInput(options);
   const Sequence sequence(options.input, options.sequence);
   const fg::Extent pictures = extentOfPictures(options.average, sequence);
+  checkCameras(sequence);
+  refuseHoles(options, lights, sequence);
   prepareOutputDirectory(options.output.directory);
+  if (!options.json.empty()) prepareOutputFile(options.json);
   describeInput(std::cout, options.input, sequence);
   if (options.average > 1) {
     std::cout << "pictures: " << pictures.width << " x " << pictures.height << ", means over " << options.average

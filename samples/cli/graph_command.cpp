@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -86,13 +87,15 @@ void write(const std::string& text, const std::string& file) {
 }
 
 /// @param lights  whose settings are listed
-void listSettings(Denoiser& method, LightKinds lights) {
+std::string settingsListing(Denoiser& method, LightKinds lights) {
+  std::ostringstream text;
   for (const SettingText& setting : method.settings()) {
     if (!haveInCommon(setting.lights, lights)) continue;
-    std::cout << setting.name << " = " << setting.value << "  (" << setting.range
-              << (setting.unit.empty() ? "" : " " + setting.unit) << ")\n    " << setting.description << " ["
-              << setting.source << "]\n";
+    text << setting.name << " = " << setting.value << "  (" << setting.range
+         << (setting.unit.empty() ? "" : " " + setting.unit) << ")\n    " << setting.description << " ["
+         << setting.source << "]\n";
   }
+  return text.str();
 }
 
 /// The method of the second diffuse light; null if there is none.
@@ -111,6 +114,9 @@ std::unique_ptr<Denoiser> makeSecond(const GraphOptions& options, LightKinds lig
 /// @param second that of a second diffuse light; may be null
 /// @throws UsageError if the method does not take specular light
 std::vector<DenoisedLight> lightsOf(const GraphOptions& options, Denoiser& method, Denoiser* second) {
+  if (options.lights == "specular" && !options.light.everyPixel()) {
+    throw UsageError("--light specular marks pixels without a sample by a distance of 0: leave out --light-rate");
+  }
   if (options.lights != "diffuse" && !method.takesSpecularLight()) {
     throw UsageError("--light " + options.lights + ": method " + options.method.name + " takes diffuse light only");
   }
@@ -123,15 +129,14 @@ std::vector<DenoisedLight> lightsOf(const GraphOptions& options, Denoiser& metho
 
 void printGraph(const GraphOptions& options) {
   if (options.listPasses) {
-    std::cout << passListing();
-    return;
+    return write(passListing(), options.output);
   }
   const fg::Extent extent = parseSize(options.size);
   const LightKinds kinds{.diffuse = options.lights != "specular", .specular = options.lights != "diffuse"};
   const std::unique_ptr<Denoiser> method = makeMethod(options.method, kinds);
   if (options.listSettings) {
-    listSettings(*method, options.lights == "specular" ? kinds : LightKinds{.diffuse = true, .specular = true});
-    return;
+    const LightKinds both{.diffuse = true, .specular = true};
+    return write(settingsListing(*method, options.lights == "specular" ? kinds : both), options.output);
   }
   InputConventions conventions;
   conventions.light = options.light;

@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "framegraph/vulkan/error.h"
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
+#include "samples/command_line/choice.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/light_rate.h"
@@ -112,12 +112,10 @@ void registerRender(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--reference-frames", arguments->referenceFrames,
                       "A-B: first and last frame that get a reference; default: all");
-  command
-      ->add_option(
-          "--reference-pixel", options.referenceCoverage.wholePixel,
-          "Value of a reference pixel: point (light at the frame's sample position; default) or area (mean over "
-          "the pixel, which anti-aliasing converges to)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"point", false}, {"area", true}}));
+  addChoice<bool, bool>(*command, "--reference-pixel", options.referenceCoverage.wholePixel,
+                        {{"point", false}, {"area", true}}, "point",
+                        "Value of a reference pixel: point (light at the frame's sample position) or area (mean over "
+                        "the pixel, which anti-aliasing converges to)");
   constexpr std::uint32_t kFewestSquares = 4096;
   command
       ->add_option(
@@ -130,7 +128,11 @@ void registerRender(CLI::App& program) {
       ->check(CLI::Range(0U, kMostBounces))
       ->capture_default_str();
   addResampledFrames(*command, options.resampledFrames);
-  command->add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
+  constexpr std::uint32_t kLargestSeed =
+      (1U << 31U) - 1;  // Each has two sequences of numbers: of frames, of references.
+  command->add_option("--seed", options.seed, "Seed of the random numbers")
+      ->check(CLI::Range(0U, kLargestSeed))
+      ->capture_default_str();
   constexpr double kSlowest = 1e-3;
   constexpr double kFastest = 1e6;
   command->add_option("--fps", options.framesPerSecond, "Frames per second of the animation")
@@ -142,20 +144,17 @@ void registerRender(CLI::App& program) {
       "Equirectangular sky that replaces the scene's: an EXR file with R,G,B; its centre lies along -Z");
   command->add_flag("--jitter", options.jitter,
                     "Jitter the sample position within the pixel: 16 Halton points, one per frame");
-  command
-      ->add_option("--sampler", options.sampler,
-                   "Random numbers: blue-noise (spread over the pixels of a frame; default; with several samples per "
-                   "pixel, sobol is used instead), sobol (Owen-scrambled Sobol points over the samples of a pixel) "
-                   "or independent")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, render::Sampler::Kind>{{"blue-noise", render::Sampler::Kind::BlueNoise},
-                                                       {"sobol", render::Sampler::Kind::Sobol},
-                                                       {"independent", render::Sampler::Kind::Independent}}));
-  command
-      ->add_option("--diffuse", options.diffuseModel,
-                   "Diffuse lobe of all materials: lambert (default), or disney, the one of Blender's Principled BSDF")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, render::DiffuseModel>{
-          {"lambert", render::DiffuseModel::Lambert}, {"disney", render::DiffuseModel::Disney}}));
+  using render::DiffuseModel;
+  using Kind = render::Sampler::Kind;
+  addChoice<Kind, Kind>(
+      *command, "--sampler", options.sampler,
+      {{"blue-noise", Kind::BlueNoise}, {"sobol", Kind::Sobol}, {"independent", Kind::Independent}}, "blue-noise",
+      "Random numbers: blue-noise (spread over the pixels of a frame; with several samples per pixel, sobol is used "
+      "instead), sobol (Owen-scrambled Sobol points over the samples of a pixel) or independent");
+  addChoice<DiffuseModel, DiffuseModel>(
+      *command, "--diffuse", options.diffuseModel,
+      {{"lambert", DiffuseModel::Lambert}, {"disney", DiffuseModel::Disney}}, "lambert",
+      "Diffuse lobe of all materials: lambert, or disney, the one of Blender's Principled BSDF");
   command->add_flag("--specular", options.specular,
                     "Materials reflect with the specular lobe of glTF, too: frames and references also hold its light, "
                     "distances, roughness and albedo");

@@ -1,25 +1,17 @@
 #include "samples/command_line/tracer_option.h"
 
-#include <map>
-
 #include "framegraph/vulkan/error.h"
+#include "samples/command_line/choice.h"
 
 namespace walr {
 
 void addTracerOption(CLI::App& command, TracerChoice& choice) {
-  static const std::map<std::string, TracerChoice> kNames{
+  const std::vector<std::pair<std::string, TracerChoice>> names{
       {"cpu", TracerChoice::Cpu}, {"gpu", TracerChoice::Gpu}, {"auto", TracerChoice::Auto}};
-  std::string initial;
-  for (const auto& [name, value] : kNames) {
-    if (value == choice) initial = name;
-  }
-  command
-      .add_option("--tracer", choice,
-                  "Where paths are traced: cpu (Embree), gpu (a Vulkan device with ray queries) or auto (gpu if the "
-                  "device has ray queries and is no software driver, otherwise cpu)")
-      ->transform(CLI::CheckedTransformer(kNames))
-      ->type_name("")
-      ->default_str(initial);
+  const auto initial = std::ranges::find(names, choice, [](const auto& named) { return named.second; });
+  addChoice(command, "--tracer", choice, names, initial->first,
+            "Where paths are traced: cpu (Embree), gpu (a Vulkan device with ray queries) or auto (gpu if the "
+            "device has ray queries and is no software driver, otherwise cpu)");
 }
 
 TracerDecision decideTracer(TracerChoice choice, const GpuDevice& gpu) {

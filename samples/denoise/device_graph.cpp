@@ -29,6 +29,10 @@ ReadbackGraph::ReadbackGraph(const GpuDevice& gpu, const fg::Graph& graph, std::
       graph_(gpu, graph, framesInFlight, nullptr, shared),
       queue_(gpu.device().context(), gpu.device().queue(), framesInFlight) {}
 
+UploadedTexture& ReadbackGraph::addUpload(fg::Texture texture) {
+  return uploads_.emplace_back(gpu_.device().context(), declared_, executor(), texture, framesInFlight_);
+}
+
 ReadbackGraph::Index ReadbackGraph::readBack(fg::Texture texture) {
   const fg::vk::StagedImage& image = std::get<fg::vk::StagedImage>(readbacks_.emplace_back(
       std::in_place_type<fg::vk::StagedImage>, gpu_.device().context(), declared_.textureDesc(texture),

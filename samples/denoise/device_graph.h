@@ -15,6 +15,7 @@
 #include "framegraph/vulkan/staged_buffer.h"
 #include "framegraph/vulkan/staged_image.h"
 #include "samples/denoise/gpu_device.h"
+#include "samples/denoise/uploaded_texture.h"
 
 namespace walr {
 
@@ -49,6 +50,8 @@ class ReadbackGraph {
   ReadbackGraph(const GpuDevice& gpu, const fg::Graph& graph, std::uint32_t framesInFlight,
                 const fg::vk::Membership& shared = {});
 
+  /// Make an image for a texture that the graph imports as `fg::vk::kUploaded`. It lives as long as this.
+  UploadedTexture& addUpload(fg::Texture texture);
   /// Read back a texture that the graph imports as `fg::vk::kOverwritable` and exports as `fg::vk::kReadable`.
   Index readBack(fg::Texture texture);
   /// The same for a buffer.
@@ -77,8 +80,9 @@ class ReadbackGraph {
   const fg::Graph& declared_;
   std::uint32_t framesInFlight_;
   DeviceGraph graph_;
+  std::deque<UploadedTexture> uploads_;
   std::vector<Readback> readbacks_;
-  fg::vk::FrameQueue queue_;
+  fg::vk::FrameQueue queue_;            // Its destructor waits for frames that use what is above.
   std::deque<std::uint32_t> inFlight_;  // Slots, the oldest first.
 };
 

@@ -11,7 +11,6 @@
 
 #include "passes/conventions/light_direction.h"
 #include "samples/denoise/device_graph.h"
-#include "samples/denoise/uploaded_texture.h"
 
 namespace walr {
 namespace {
@@ -69,25 +68,20 @@ struct GpuDenoiser::State {
             {.inputs = fg::vk::kUploaded, .outputBefore = fg::vk::kOverwritable, .outputAfter = fg::vk::kReadable},
             formatsOf(given, layout.conventions.specular), {}, wanted)),
         graph(gpu, declared.graph, framesInFlight, shared),
-        depth(makeUpload(gpu, declared.inputs.depth, framesInFlight)),
-        normal(makeUpload(gpu, declared.inputs.normal, framesInFlight)),
-        motion(makeUpload(gpu, declared.inputs.motion, framesInFlight)),
-        albedo(makeUpload(gpu, declared.inputs.lobeAlbedo(), framesInFlight)) {
+        depth(graph.addUpload(declared.inputs.depth)),
+        normal(graph.addUpload(declared.inputs.normal)),
+        motion(graph.addUpload(declared.inputs.motion)),
+        albedo(graph.addUpload(declared.inputs.lobeAlbedo())) {
     for (const LightImages& light : declared.lights) {
-      lighting.push_back(makeUpload(gpu, light.lighting, framesInFlight));
+      lighting.push_back(&graph.addUpload(light.lighting));
       outputs.push_back(graph.readBack(light.output));
       if (light.lightDirection.valid()) lightDirections.push_back(graph.readBack(light.lightDirection));
     }
-    if (layout.conventions.specular) roughness.emplace(makeUpload(gpu, declared.inputs.roughness, framesInFlight));
-    if (declared.inputs.specularMotion.valid())
-      specularMotion.emplace(makeUpload(gpu, declared.inputs.specularMotion, framesInFlight));
-    if (given.objectIds) objectId.emplace(makeUpload(gpu, declared.inputs.objectId, framesInFlight));
+    if (layout.conventions.specular) roughness = &graph.addUpload(declared.inputs.roughness);
+    if (declared.inputs.specularMotion.valid()) specularMotion = &graph.addUpload(declared.inputs.specularMotion);
+    if (given.objectIds) objectId = &graph.addUpload(declared.inputs.objectId);
     for (const DebugView& view : declared.views) views.push_back(graph.readBack(view.texture));
     if (!declared.inspection.counters().empty()) counters = graph.readBack(declared.inspection.counterBuffer());
-  }
-
-  UploadedTexture makeUpload(const GpuDevice& gpu, fg::Texture texture, std::uint32_t slots) {
-    return {gpu.device().context(), declared.graph, graph.executor(), texture, slots};
   }
 
   /// Record and submit a frame.
@@ -101,14 +95,14 @@ struct GpuDenoiser::State {
   const Layout& layout;
   DenoiseGraph declared;
   ReadbackGraph graph;
-  std::vector<UploadedTexture> lighting;  ///< Of each light.
-  UploadedTexture depth;
-  UploadedTexture normal;
-  UploadedTexture motion;
-  UploadedTexture albedo;
-  std::optional<UploadedTexture> roughness;
-  std::optional<UploadedTexture> specularMotion;
-  std::optional<UploadedTexture> objectId;
+  std::vector<UploadedTexture*> lighting;  ///< Of each light.
+  UploadedTexture& depth;
+  UploadedTexture& normal;
+  UploadedTexture& motion;
+  UploadedTexture& albedo;
+  UploadedTexture* roughness = nullptr;  ///< These three are null where there is no such input.
+  UploadedTexture* specularMotion = nullptr;
+  UploadedTexture* objectId = nullptr;
   std::vector<ReadbackGraph::Index> outputs;  ///< Of each light.
   std::vector<ReadbackGraph::Index> views;
   std::optional<ReadbackGraph::Index> counters;
@@ -144,7 +138,7 @@ void GpuDenoiser::State::submit(const PackedFrame& packed, std::span<const Light
   if (frame.resetHistory) {
     graph.executor().resetAllHistory();
   }
-  for (std::size_t i = 0; i < lights.size(); ++i) lighting[i].upload(recorded, lights[i]);
+  for (std::size_t i = 0; i < lights.size(); ++i) lighting[i]->upload(recorded, lights[i]);
   depth.upload(recorded, frame.depth.values());
   normal.upload(recorded, packed.normal);
   motion.upload(recorded, packed.motion);

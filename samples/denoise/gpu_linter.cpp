@@ -9,7 +9,6 @@
 #include "passes/lint/lint_specular.h"
 #include "samples/denoise/device_graph.h"
 #include "samples/denoise/packed_frame.h"
-#include "samples/denoise/uploaded_texture.h"
 
 namespace walr {
 namespace {
@@ -77,7 +76,7 @@ struct GpuLinter::State {
   };
   std::vector<Upload> uploads;
   std::optional<ReadbackGraph> device;
-  std::vector<UploadedTexture> textures;  ///< Of each upload.
+  std::vector<UploadedTexture*> textures;  ///< Of each upload.
   ReadbackGraph::Index words = 0;
 };
 
@@ -114,9 +113,7 @@ void GpuLinter::State::declare(const Frame& frame) {
   }
   graph.exported(counts, fg::vk::kReadable);
   device.emplace(gpu, graph, 1U);
-  for (const Upload& upload : uploads) {
-    textures.emplace_back(gpu.device().context(), graph, device->executor(), upload.texture, 1U);
-  }
+  for (const Upload& upload : uploads) textures.push_back(&device->addUpload(upload.texture));
   words = device->readBack(counts);
 }
 
@@ -133,7 +130,7 @@ void GpuLinter::add(const Frame& frame) {
   const fg::vk::Frame recorded = device.begin();
   device.executor().upload(state_->constants, constants);
   for (std::size_t i = 0; i < state_->textures.size(); ++i) {
-    state_->textures[i].upload(recorded, state_->uploads[i].image->texels(frame));
+    state_->textures[i]->upload(recorded, state_->uploads[i].image->texels(frame));
   }
   device.submit(recorded);
   state_->linter.add(device.read<std::uint32_t>(state_->words, device.finish()),

@@ -124,16 +124,31 @@ FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale) {
   return description;
 }
 
-FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale) {
+namespace {
+
+FrameConstants constantsOf(const Frame& frame, glm::vec2 motionScale, fg::Extent extent) {
   const std::string camera = "camera of frame " + std::to_string(frame.number) + ": ";
   if (isOrthographic(frame.camera.projection)) {
     throw InputError(camera + "it is orthographic; the frames of a sequence need a perspective camera");
   }
   try {
-    return frameConstants(frameDescriptionOf(frame, motionScale), {static_cast<std::uint32_t>(frame.depth.width()),
-                                                                   static_cast<std::uint32_t>(frame.depth.height())});
+    return frameConstants(frameDescriptionOf(frame, motionScale), extent);
   } catch (const std::invalid_argument& error) {
     throw InputError(camera + error.what());
+  }
+}
+
+}  // namespace
+
+FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale) {
+  return constantsOf(
+      frame, motionScale,
+      {static_cast<std::uint32_t>(frame.depth.width()), static_cast<std::uint32_t>(frame.depth.height())});
+}
+
+void checkCameras(const Sequence& sequence) {
+  for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
+    (void)constantsOf(sequence.describe(i), sequence.denoiserLayout().motionScale, sequence.extent());
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "passes/conventions/frame.h"
 #include "samples/sequence/frame.h"
+#include "samples/sequence/sequence.h"
 
 namespace walr {
 
@@ -61,5 +62,8 @@ FrameDescription frameDescriptionOf(const Frame& frame, glm::vec2 motionScale);
 /// @param motionScale  see `FrameDescription::motionScale`
 /// @throws InputError naming a frame whose camera is not usable
 FrameConstants frameConstantsOf(const Frame& frame, glm::vec2 motionScale);
+
+/// @throws InputError naming a frame whose camera is not usable
+void checkCameras(const Sequence& sequence);
 
 }  // namespace walr

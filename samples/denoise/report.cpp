@@ -213,7 +213,7 @@ std::string reportJson(const DenoiseReport& report) {
   }
   document["mean"] = meanJson(meanReport(report.frames, 0));
   document["mean_after_4"] = meanJson(meanReport(report.frames, kWarmUpFrames));
-  return document.dump(2) + "\n";
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void printReport(std::ostream& stream, const DenoiseReport& report) {

@@ -212,7 +212,7 @@ class Reporter {
   /// The first frames of the user's sequence.
   [[nodiscard]] ComparedSequence given() const {
     const Sequence& source = *options_.sequence;
-    ComparedSequence sequence{"sequence", source.extent(), source.layout().layout, {}, {}};
+    ComparedSequence sequence{"sequence", source.extent(), &source.denoiserLayout(), {}, {}};
     const std::size_t count = std::min(source.entries().size(), static_cast<std::size_t>(effort_.comparedFrames));
     for (std::size_t i = 0; i < count; ++i) sequence.frames.push_back(packFrame(source.read(i)));
     return sequence;

@@ -165,7 +165,7 @@ std::string gpuReportJson(const GpuReport& report, const std::string& command) {
   document["results"] = {{"reference", textOrNull(report.reference)},
                          {"missing_because", textOrNull(report.whyNoReference)},
                          {"agreements", std::move(agreements)}};
-  return document.dump(1) + "\n";
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace walr

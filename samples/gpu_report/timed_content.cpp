@@ -47,13 +47,12 @@ TimedContent syntheticContent(fg::Extent extent) {
 
 TimedContent sequenceContent(const Sequence& sequence, const std::string& name) {
   const std::size_t count = sequence.entries().size();
-  if (count < 2) throw InputError(name + ": times need two frames at least");
   const std::size_t first = count / 2 - 1;
   return {.name = "sequence",
           .description = name + ", frames " + std::to_string(sequence.entries()[first].number) + " and " +
                          std::to_string(sequence.entries()[first + 1].number),
           .extent = sequence.extent(),
-          .layout = sequence.layout().layout,
+          .layout = &sequence.denoiserLayout(),
           .frames = {slim(packFrame(sequence.read(first))), slim(packFrame(sequence.read(first + 1)))}};
 }
 

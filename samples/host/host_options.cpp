@@ -1,6 +1,6 @@
 #include "samples/host/host_options.h"
+#include "samples/command_line/choice.h"
 
-#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -98,13 +98,10 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
                      "Equirectangular sky that replaces the scene's: an EXR file with R,G,B; its centre lies along -Z");
   program.add_flag("--jitter", tracer.jitter,
                    "Jitter the sample position within the pixel: 16 Halton points, one per frame");
-  program
-      .add_option("--direct", tracer.denoiseDirect,
-                  "Direct light: denoised together with the indirect light, or noisy as it was traced. Lamps and skies "
-                  "are noisy at one sample per pixel")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"denoised", true}, {"noisy", false}}))
-      ->type_name("")
-      ->default_str("denoised");
+  addChoice<bool, bool>(
+      program, "--direct", tracer.denoiseDirect, {{"denoised", true}, {"noisy", false}}, "denoised",
+      "Direct light: denoised together with the indirect light, or noisy as it was traced. Lamps and skies "
+      "are noisy at one sample per pixel");
   program.add_flag("--specular", tracer.specular,
                    "Materials reflect with the specular lobe of glTF, too; methods that take its light denoise it");
   program

@@ -111,6 +111,16 @@ void prepareOutputDirectory(const std::filesystem::path& directory) {
   const TemporaryFile probe(directory / "write-test");
 }
 
+void prepareOutputFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) {
+    throw OutputError("cannot write to " + path.string() + ": it is a folder; give the name of a file");
+  }
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return;
+  const TemporaryFile probe(path);
+}
+
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   namespace fs = std::filesystem;
   std::error_code error;

@@ -80,7 +80,7 @@ void matchSettings(const RenderOptions& options, const std::string& contents) {
   const nlohmann::json settings = describe(options, contents);
   std::error_code error;
   if (!fs::exists(file, error)) {
-    const std::string text = settings.dump(2) + "\n";
+    const std::string text = settings.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     writeFileAtomically(file, text);
     return;
   }

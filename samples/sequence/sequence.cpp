@@ -123,7 +123,9 @@ void Sequence::scan() {
   }
   FilesByNumber frames;
   FilesByNumber references;
-  for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
+  fs::directory_iterator files(folder_, error);
+  if (error) throw InputError("cannot read the folder " + folder_.string() + ": " + error.message());
+  for (const fs::directory_entry& file : files) {
     const std::string stem = file.path().stem().string();
     const std::optional<int> number = frameNumber(stem);
     if (isNamedExr(file.path()) && number) {
@@ -134,7 +136,11 @@ void Sequence::scan() {
     }
   }
   if (frames.empty()) {
-    throw InputError(folder_.string() + " holds no frames: no .exr file with a frame number at the end of its name");
+    throw InputError(folder_.string() +
+                     " holds no frames: no .exr file with a number of one to nine digits at the end of its name" +
+                     (references.empty() ? ""
+                                         : "; " + references.begin()->second.filename().string() +
+                                               " is a reference, because its name begins with 'ref'"));
   }
   const FrameRange range = options_.frames.value_or(FrameRange{frames.begin()->first, std::prev(frames.end())->first});
   for (int number = range.first; number <= range.last; ++number) {
@@ -231,7 +237,7 @@ void Sequence::keepSomeLight() {
 }
 
 void Sequence::readLight(const ExrReader& file, Entry& entry) {
-  if (options_.light.onlySpecular()) return;  // Its samples are the pixels with a distance.
+  if (!options_.light.indirect) return;  // All other light has samples at every pixel, or marks those that have none.
   const SparseLight light = readLightAttributes(file);
   if (&entry == &entries_.front()) denoiserLayout_.conventions.light = light.pattern;
   if (light.pattern != denoiserLayout_.conventions.light) {
@@ -271,7 +277,7 @@ void Sequence::markCuts() {
   }
 }
 
-Frame Sequence::read(std::size_t index) const {
+Frame Sequence::describe(std::size_t index) const {
   const Entry& entry = entries_[index];
   Frame frame;
   frame.number = entry.number;
@@ -285,7 +291,12 @@ Frame Sequence::read(std::size_t index) const {
   frame.previousLightOffset = entries_[index > 0 ? index - 1 : 0].lightOffset;
 
   frame.place = ImagePlace{place_, entry.dataWindow, displayWindow_};
+  return frame;
+}
 
+Frame Sequence::read(std::size_t index) const {
+  const Entry& entry = entries_[index];
+  Frame frame = describe(index);
   ExrReader file(entry.file, options_.stereoView);
   checkDisplayWindow(file);
   readFrame(file, layout_, options_.light, place_, frame);

@@ -71,6 +71,8 @@ class Sequence {
   /// Where the images of all frames lie, and the picture.
   [[nodiscard]] const PixelRect& place() const { return place_; }
   [[nodiscard]] const PixelRect& displayWindow() const { return displayWindow_; }
+  /// A frame without its images.
+  [[nodiscard]] Frame describe(std::size_t index) const;
   [[nodiscard]] bool hasReferences() const;
   /// See `ExrReader::lossy`; of the first frame.
   [[nodiscard]] bool lossy() const { return lossy_; }

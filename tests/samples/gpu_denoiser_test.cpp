@@ -124,6 +124,17 @@ TEST_F(GpuDenoiserTest, RefusesMoreFramesThanMayBeInFlight) {
   EXPECT_EQ(denoiser.denoise(all[2]).frame.number, 2);
 }
 
+// As where a frame cannot be read: the device then still works on those before it.
+TEST_F(GpuDenoiserTest, MayBeDestroyedWithFramesInFlight) {
+  const std::vector<PackedFrame> all = frames();
+  {
+    GpuDenoiser denoiser(gpu, *makeDenoiser("svgf"), kExtent, projectLayout(), {}, 2);
+    denoiser.submit(all[0]);
+    denoiser.submit(all[1]);
+  }
+  EXPECT_NO_THROW(gpu.refuseMessages());
+}
+
 /// Sets an environment variable of this process, and restores it afterwards.
 class Environment {
  public:
