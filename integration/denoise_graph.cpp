@@ -222,6 +222,7 @@ DenoiseGraph declareDenoiseGraph(std::span<const DenoisedLight> lights, fg::Exte
   stated.specular = kinds.specular;
   checkOrthographic(stated, host, wanted.lint);
   stated.specular = lights.front().specular;
+  stated.orthographic = host.orthographic;
   const Declaring all{states, host, wanted};
   DenoiseGraph declared;
   fg::Graph& graph = declared.graph;

@@ -154,6 +154,14 @@ std::vector<std::unique_ptr<Denoiser>> makeMethods(std::span<const WalrLightKind
   return methods;
 }
 
+/// The same text at a place that lasts as long as the library is loaded.
+std::string_view lasting(const std::string& text) {
+  static std::mutex mutex;
+  static std::set<std::string> texts;
+  const std::lock_guard lock(mutex);
+  return *texts.insert(text).first;
+}
+
 VkFormat formatOr(VkFormat format, std::size_t input) {
   const bool usual = format == VK_FORMAT_UNDEFINED && !kHostInputs.at(input).optional;
   return usual ? kHostInputs.at(input).format : format;
@@ -197,6 +205,7 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
   }
   for (std::size_t i = 0; i < lightKinds_.size(); ++i) {
     const InputConventions conventions = inputConventions(i);
+    if (!methods_.empty()) methods_[i]->requireLight(conventions);
     checkOrthographic(conventions, hostConventions(), info.lint == VK_TRUE);
     // Refuse wrong formats here and not when the first frame is recorded.
     fg::Graph scratch;
@@ -206,6 +215,17 @@ Description::Description(const WalrDenoiserInfo& info, Of of)
 
 void Description::resize(std::uint32_t width, std::uint32_t height) {
   extent_ = checkedExtent(width, height);
+}
+
+std::vector<ViewInfo> Description::views() const {
+  std::vector<ViewInfo> all;
+  for (std::size_t i = 0; i < methods_.size(); ++i) {
+    for (ViewInfo& view : methods_[i]->views({.specular = lightKinds_[i] == WALR_LIGHT_SPECULAR})) {
+      view.name = lasting(std::string(kLightNames.at(i).settings).append(view.name));
+      all.push_back(std::move(view));
+    }
+  }
+  return all;
 }
 
 DenoiseGraph Description::declare(const InspectionWish& wanted) const {

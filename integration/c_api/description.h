@@ -84,11 +84,9 @@ class Description {
   /// @throws also naming a view that does not exist
   /// @param wanted further outputs, for debugging
   [[nodiscard]] DenoiseGraph declare(const InspectionWish& wanted = {}) const;
-  /// Views of the method with its current settings.
+  /// Views of the methods of all lights with their current settings; names of another light have its prefix.
   /// @throws std::invalid_argument naming settings that contradict each other
-  [[nodiscard]] std::vector<ViewInfo> views() const {
-    return methods_.front()->views({.specular = lightKinds_.front() == WALR_LIGHT_SPECULAR});
-  }
+  [[nodiscard]] std::vector<ViewInfo> views() const;
   /// A graph of the method or the stage between the host's images.
   /// @param ports  formats of the images that are connected to a stage's other inputs; empty for a method
   /// @param wanted further outputs of a method, for debugging; no views

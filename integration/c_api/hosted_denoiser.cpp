@@ -93,12 +93,16 @@ DenoiseGraph HostedDenoiser::declareGraph(const std::optional<std::string>& view
 const HostedDenoiser::Declared& HostedDenoiser::declare() {
   if (!stale_) return *declared_;
   DenoiseGraph graph = declareGraph(view_);
-  if (declared_ && fg::sameTopology(declared_->graph.graph.desc(), graph.graph.desc())) {
+  const auto has = [&](const std::shared_ptr<Declared>& other) {
+    return other && fg::sameTopology(other->graph.graph.desc(), graph.graph.desc());
+  };
+  // The host may go back to what is built, where there was no memory for something else.
+  if (!has(declared_) && built_ && has(built_->declared)) declared_ = built_->declared;
+  if (has(declared_)) {
     declared_->graph = std::move(graph);
     updates_ = true;
   } else {
-    declared_ = compile(std::move(graph));
-    rebuild_ = true;
+    declared_ = std::make_shared<Declared>(compile(std::move(graph)));
   }
   stale_ = false;
   return *declared_;
@@ -126,9 +130,7 @@ HostedDenoiser::Declared HostedDenoiser::compile(DenoiseGraph graph) const {
 
 void HostedDenoiser::build() {
   declare();
-  if (rebuild_) retire();
-  rebuild_ = false;
-  if (!built_) {
+  if (!built_ || built_->declared != declared_) {
     makeExecutor();
   } else if (updates_) {
     built_->executor->update(declared_->graph.graph.desc());
@@ -136,9 +138,17 @@ void HostedDenoiser::build() {
   updates_ = false;
 }
 
+/// Replace what is built, which stays if there is no memory for another one.
 void HostedDenoiser::makeExecutor() {
+  if (built_ && !built_->lastFrame) {  // It is in no frame, so that its memory can be had. The one before comes back.
+    built_.reset();
+    if (!retired_.empty()) {
+      built_ = std::move(retired_.back());
+      retired_.pop_back();
+    }
+  }
   const fg::Extent extent = description_.extent();
-  const Built* const before = predecessor();
+  const Built* const before = built_ ? &*built_ : nullptr;
   const bool inherits = before != nullptr && (description_.rectangle() || before->extent == extent);
   const fg::vk::ExecutorOptions options{
       .framesInFlight = description_.slots(),
@@ -146,7 +156,8 @@ void HostedDenoiser::makeExecutor() {
       .shared = {std::shared_ptr<fg::vk::SharedObjects>(shared_, &shared_->objects), member_},
       .predecessor = before != nullptr ? before->executor.get() : nullptr,
       .inheritHistories = inherits};
-  Built made{.executor = std::make_unique<fg::vk::Executor>(device().context(), declared_->graph.graph.desc(),
+  Built made{.declared = declared_,
+             .executor = std::make_unique<fg::vk::Executor>(device().context(), declared_->graph.graph.desc(),
                                                             declared_->plan, options),
              .counters = nullptr,
              .lint = nullptr,
@@ -168,6 +179,8 @@ void HostedDenoiser::makeExecutor() {
                                                      inspection.counters(), description_.slots());
     made.executor->bind(buffer, made.counters->buffer().handle());
   }
+  // Frames in flight may use it, and the next frame its histories.
+  if (built_) retired_.push_back(std::move(*built_));
   built_ = std::move(made);
   log(WALR_LOG_INFO, description_.methodName() + " at " + std::to_string(extent.width) + " x " +
                          std::to_string(extent.height) + ": " + std::to_string(declared_->plan.passes.size()) +
@@ -178,16 +191,9 @@ void HostedDenoiser::prepare() {
   build();
 }
 
-/// Keep what was built for as long as frames in flight may use it.
-void HostedDenoiser::retire() {
-  if (built_ && built_->lastFrame) retired_.push_back(std::move(*built_));
-  built_.reset();
-}
-
-/// The `Built` that recorded the last frame, if the next frame needs it: to create the next executor from it, or
-/// because the next frame reads its histories.
+/// The `Built` that recorded the last frame, if the next frame reads its histories.
 HostedDenoiser::Built* HostedDenoiser::predecessor() {
-  const bool needed = !built_ || (built_->inherits && !built_->lastFrame);
+  const bool needed = built_ && built_->inherits && !built_->lastFrame;
   return needed && !retired_.empty() ? &retired_.back() : nullptr;
 }
 

@@ -58,6 +58,7 @@ class HostedDenoiser {
   };
   /// The Vulkan objects for a `Declared`.
   struct Built {
+    std::shared_ptr<Declared> declared;
     std::unique_ptr<fg::vk::Executor> executor;
     std::unique_ptr<HostedCounters> counters;  ///< Null without counters.
     std::shared_ptr<HostedLint> lint;          ///< Null without lint; shared among executors if the history is kept.
@@ -76,7 +77,6 @@ class HostedDenoiser {
   Declared compile(DenoiseGraph graph) const;
   void build();
   void makeExecutor();
-  void retire();
   Built* predecessor();
   void dropFinished();
   [[nodiscard]] FrameImages checkedImages(const WalrFrame& frame) const;
@@ -105,13 +105,12 @@ class HostedDenoiser {
   WalrLog log_;
   void* logUser_;
 
-  std::optional<std::string> view_;   ///< Written to the host's image.
-  std::optional<Declared> declared_;  ///< The latest.
-  bool stale_ = true;                 ///< Settings or size may have changed since.
-  bool rebuild_ = false;              ///< `built_` has another topology than `declared_`.
-  bool updates_ = false;              ///< The executor does not have the constants of `declared_` yet.
-  std::optional<Built> built_;        ///< What the last frame used, or the next one will.
-  std::vector<Built> retired_;        ///< In use by frames in flight; the oldest first.
+  std::optional<std::string> view_;     ///< Written to the host's image.
+  std::shared_ptr<Declared> declared_;  ///< The latest.
+  bool stale_ = true;                   ///< Settings or size may have changed since.
+  bool updates_ = false;                ///< The executor does not have the constants of `declared_` yet.
+  std::optional<Built> built_;          ///< What the last frame used, or the next one will.
+  std::vector<Built> retired_;          ///< In use by frames in flight; the oldest first.
   bool resetRequested_ = false;
   FrameImages lastImages_{};
 };

@@ -107,7 +107,6 @@ void HostedPasses::beginFrame(const WalrPassFrame& frame) {
     }
     if (lint_) lint_->collect(recording_->slot());
     if (counters_) counters_->collect(recording_->slot());
-    afterAnother_ = description_.frames() > 0;
     for (const std::uint32_t resource : recording_->frameUploads())
       recording_->upload(resource, frameConstants(resource));
   }
@@ -151,7 +150,10 @@ void HostedPasses::record(std::uint32_t pass, VkCommandBuffer commandBuffer,
   if (timestamps_) timestamps_->endPass(commandBuffer, recording_->slot(), pass);
   if (ofCounters == CountUse::CountLast) counters_->recordAfter(commandBuffer, recording_->slot());
   if (ofLint == CountUse::CountLast) {
-    lint_->recordAfter(commandBuffer, recording_->slot(), {constants_->camera, description_.extent(), afterAnother_});
+    const std::uint64_t frame = description_.frames() - 1;  // The next one is counted already.
+    const bool continues = lastLinted_ && *lastLinted_ + 1 == frame;
+    lint_->recordAfter(commandBuffer, recording_->slot(), {constants_->camera, description_.extent(), continues});
+    lastLinted_ = frame;
   }
 }
 

@@ -60,7 +60,7 @@ class HostedPasses {
   std::optional<PassRecording> recording_;
   std::optional<fg::vk::Completions> completions_;
   std::optional<Constants> constants_;
-  bool afterAnother_ = false;  ///< The frame begun last has a frame before it.
+  std::optional<std::uint64_t> lastLinted_;  ///< Number of the last frame whose inputs were checked.
   std::optional<PassTimestamps> timestamps_;
   std::vector<WalrPassTime> times_;
   std::optional<HostedLint> lint_;

@@ -175,7 +175,7 @@ void PassRecording::clear(VkCommandBuffer commandBuffer, const Zeros& zeros) con
 
 /// Created on demand and destroyed when no frame in flight reads it, because histories are rarely null. Every pass has
 /// its own zeros: hosts record passes in any order, and the pass that clears must run first on the queue.
-VkImageView PassRecording::zeros(const WalrDispatch& pass, std::uint32_t resource, VkCommandBuffer commandBuffer) {
+VkImageView PassRecording::zeros(const WalrDispatch& pass, std::uint32_t resource) {
   auto known = zeros_.find({&pass, resource});
   if (known == zeros_.end()) {
     const fg::ResourceDecl& decl = graph_->resources[resource];
@@ -187,15 +187,23 @@ VkImageView PassRecording::zeros(const WalrDispatch& pass, std::uint32_t resourc
     made.memory.add(made.image.get());
     made.memory.allocate();
     made.view = fg::vk::createImageView(*device_, made.image.get(), desc, {}, decl.name + " (none)");
-    clear(commandBuffer, made);
     known = zeros_.emplace(std::pair(&pass, resource), std::move(made)).first;
   }
   known->second.lastFrame = frame_;
   return known->second.view.get();
 }
 
+/// Clear what was created for a pass. Nothing fails after that, so that the commands are not thrown away.
+void PassRecording::clearZeros(VkCommandBuffer commandBuffer, const WalrDispatch& pass) {
+  for (auto& [key, zeros] : zeros_) {
+    if (key.first != &pass || zeros.cleared) continue;
+    clear(commandBuffer, zeros);
+    zeros.cleared = true;
+  }
+}
+
 PassRecording::Descriptor PassRecording::describe(const WalrDispatch& pass, const WalrBinding& binding,
-                                                  const WalrPassResource& given, VkCommandBuffer commandBuffer) {
+                                                  const WalrPassResource& given) {
   Descriptor descriptor;
   const WalrResource& resource = *list_->resources[binding.resource];
   if (resource.buffer == VK_TRUE) {
@@ -207,18 +215,18 @@ PassRecording::Descriptor PassRecording::describe(const WalrDispatch& pass, cons
   }
   const bool none = given.image == VK_NULL_HANDLE;
   descriptor.image = {(binding.filter == VK_FILTER_LINEAR ? linear_ : nearest_).get(),
-                      none ? zeros(pass, binding.resource, commandBuffer) : view(binding.resource, given),
+                      none ? zeros(pass, binding.resource) : view(binding.resource, given),
                       none ? VK_IMAGE_LAYOUT_GENERAL : given.layout};
   return descriptor;
 }
 
-void PassRecording::writeSet(VkDescriptorSet set, const WalrDispatch& pass, std::span<const WalrPassResource> resources,
-                             VkCommandBuffer commandBuffer) {
+void PassRecording::writeSet(VkDescriptorSet set, const WalrDispatch& pass,
+                             std::span<const WalrPassResource> resources) {
   std::vector<Descriptor> descriptors(resources.size());
   std::vector<VkWriteDescriptorSet> writes(resources.size());
   for (std::size_t i = 0; i < resources.size(); ++i) {
     const WalrBinding& binding = *pass.bindings[i];
-    descriptors[i] = describe(pass, binding, resources[i], commandBuffer);
+    descriptors[i] = describe(pass, binding, resources[i]);
     noteAge(binding, resources[i]);
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstSet = set;
@@ -258,7 +266,7 @@ void PassRecording::record(std::uint32_t index, VkCommandBuffer commandBuffer,
   const WalrDispatch& pass = *list_->passes[index];
   const fg::vk::Label label(*device_, commandBuffer, pass.name);
   const VkDescriptorSet set = sets_->get(index, slot());
-  writeSet(set, pass, resources, commandBuffer);
+  writeSet(set, pass, resources);
   std::vector<std::byte> constants(pass.push_constant_size);
   if (!constants.empty()) std::memcpy(constants.data(), pass.push_constants, constants.size());
   for (std::uint32_t i = 0; i < pass.history_age_count; ++i) {
@@ -266,6 +274,7 @@ void PassRecording::record(std::uint32_t index, VkCommandBuffer commandBuffer,
     std::memcpy(constants.data() + pass.history_ages[i].offset, &age, sizeof(age));
   }
   const VkBuffer indirect = pass.indirect == WALR_NONE ? VK_NULL_HANDLE : groupCounts(pass, resources);
+  clearZeros(commandBuffer, pass);
   fg::vk::recordDispatch(*device_, commandBuffer, passPipelines_[index], set,
                          {constants, std::to_array(pass.group_count), indirect, pass.indirect_offset});
   recordedFrame_[index] = frame_ + 1;

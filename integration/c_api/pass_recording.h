@@ -51,6 +51,7 @@ class PassRecording {
     fg::vk::Owned<VkImage> image;
     fg::vk::Owned<VkImageView> view;
     std::uint64_t lastFrame = 0;
+    bool cleared = false;
   };
   struct Upload {
     fg::vk::Owned<VkBuffer> buffer;
@@ -66,12 +67,11 @@ class PassRecording {
   /// @throws Error naming a resource that is missing or in a wrong layout
   void requireResources(const WalrDispatch& pass, std::span<const WalrPassResource> resources) const;
   VkImageView view(std::uint32_t resource, const WalrPassResource& given);
-  VkImageView zeros(const WalrDispatch& pass, std::uint32_t resource, VkCommandBuffer commandBuffer);
+  VkImageView zeros(const WalrDispatch& pass, std::uint32_t resource);
   void clear(VkCommandBuffer commandBuffer, const Zeros& zeros) const;
-  Descriptor describe(const WalrDispatch& pass, const WalrBinding& binding, const WalrPassResource& given,
-                      VkCommandBuffer commandBuffer);
-  void writeSet(VkDescriptorSet set, const WalrDispatch& pass, std::span<const WalrPassResource> resources,
-                VkCommandBuffer commandBuffer);
+  void clearZeros(VkCommandBuffer commandBuffer, const WalrDispatch& pass);
+  Descriptor describe(const WalrDispatch& pass, const WalrBinding& binding, const WalrPassResource& given);
+  void writeSet(VkDescriptorSet set, const WalrDispatch& pass, std::span<const WalrPassResource> resources);
   void noteAge(const WalrBinding& binding, const WalrPassResource& given);
 
   const fg::vk::DeviceContext* device_;

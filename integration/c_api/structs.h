@@ -40,7 +40,7 @@ template <typename Struct>
 std::uint32_t structSize(const Struct* given, const char* name) {
   if (given == nullptr) throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " is null");
   const std::uint32_t size = given->struct_size;
-  if (size < kLeastSize<Struct> || size > kMostSize) {
+  if (size < kLeastSize<Struct> || size > kMostSize || size % alignof(Struct) != 0) {
     throw Error(WALR_ERROR_STRUCT_SIZE,
                 std::string(name) + "::struct_size is " + std::to_string(size) + ": set it to sizeof(" + name + ")");
   }
@@ -97,7 +97,7 @@ inline void checkSwitch(VkBool32 value, const char* name) {
 /// @throws Error if flags other than those of `known` are set
 inline void checkFlags(std::uint32_t flags, std::uint32_t known, const char* name) {
   if ((flags & ~known) == 0) return;
-  throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " has unknown bits: " + std::to_string(flags));
+  throw Error(WALR_ERROR_INVALID_ARGUMENT, std::string(name) + " has unknown bits: " + std::to_string(flags & ~known));
 }
 
 /// @throws Error if a string is null

@@ -38,8 +38,8 @@ struct HostConventions {
   bool preExposed = false;           ///< Lighting is multiplied by a changing exposure, and so is the result.
   /// Only a rectangle of the textures, the result's included, is denoised. It starts at `HostConstants::offset`.
   bool rectangle = false;
-  /// The camera is orthographic (orthographic.h): depth is moved to that of the stand-in. Such a host must give motion
-  /// with its third channel, and its inputs cannot be checked for faults.
+  /// The camera is orthographic (orthographic.h): depth is moved to that of the stand-in. Motion depth of a
+  /// static scene is refused, and its inputs cannot be checked for faults.
   bool orthographic = false;
   /// Of the result's texture: one of `kResultFormats`.
   VkFormat result = kResultFormats.front();

@@ -27,24 +27,26 @@ struct HistoryThresholds {
 inline constexpr HistoryThresholds kStrictThresholds{.planeTolerance = 0.005F, .normalThreshold = 0.9F};
 
 /// Visit the setting that chooses how a stage tests its history pixels.
-inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection) {
+inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection,
+                           LightKinds lights = {}) {
   static constexpr std::string_view kRejections[] = {"plane", "depth", "none"};
-  v.visitEnum(
-      {name, "Test whether a history pixel shows the same surface", "", 0, 1, "Meunier & Harada 2022, 4.2 and 4.4"},
-      kRejections, rejection);
+  v.visitEnum({name, "Test whether a history pixel shows the same surface", "", 0, 1,
+               "Meunier & Harada 2022, 4.2 and 4.4", lights},
+              kRejections, rejection);
 }
 
 /// Visit the thresholds under the names that a stage gives them.
 inline void visitThresholds(SettingVisitor& v, std::string_view planeToleranceName,
-                            std::string_view normalThresholdName, HistoryThresholds& thresholds) {
+                            std::string_view normalThresholdName, HistoryThresholds& thresholds,
+                            LightKinds lights = {}) {
   v.visit({planeToleranceName,
            "Largest distance of a history pixel from the surface's plane or, with rejection depth, from its depth",
-           "fraction of depth", 0.0, 1.0, "measured"},
+           "fraction of depth", 0.0, 1.0, "measured", lights},
           thresholds.planeTolerance);
   v.visit({normalThresholdName,
            "Smallest cosine between geometric normals of surface and history pixel, of specular light between shading "
            "normals",
-           "", -1.0, 1.0, "measured"},
+           "", -1.0, 1.0, "measured", lights},
           thresholds.normalThreshold);
 }
 

@@ -111,15 +111,18 @@ class DenoiserOf final : public Denoiser {
   [[nodiscard]] bool sharesGuides() const override { return method_.sharesGuides; }
   [[nodiscard]] bool takesSpecularLight() const override { return method_.takesSpecularLight; }
 
+  void requireLight(const InputConventions& conventions) const override { checkLight(method_, conventions); }
+
   fg::Texture add(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output) override {
     checkSettings();
-    checkLight(method_, inputs.conventions);
+    requireLight(inputs.conventions);
     if (graph.shared() != nullptr && !method_.sharesGuides) {
       throw std::invalid_argument("method '" + std::string(method_.name) +
                                   "' has no guides that lights could share: make a denoiser for each light");
     }
     DenoiserInputs described = inputs;
     described.scene = common(inputs.scene, scene_);
+    if (inputs.conventions.orthographic && described.scene.cameraMotion) described.scene.objectMotion = true;
     described.conventions.light = inputs.conventions.samples();
     const fg::Texture denoised = kAdd(graph, described, output, settings_);
     graph.requireOutputs();

@@ -23,6 +23,8 @@ class Denoiser : public Configurable {
   /// Whether the method prepares guides, which several lights can share (`SharedGuides`).
   [[nodiscard]] virtual bool sharesGuides() const = 0;
   [[nodiscard]] virtual bool takesSpecularLight() const = 0;
+  /// @throws std::invalid_argument naming the methods that take such light, if this one does not
+  virtual void requireLight(const InputConventions& conventions) const = 0;
   /// Add the method's passes to a graph.
   /// @param graph   the host's graph, with the views and counters that the caller wants, if any. For several lights
   ///                of a view: call `add` for each, with `SharedLight`s that have the same guides. The inputs differ

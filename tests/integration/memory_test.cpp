@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -187,6 +188,43 @@ TEST_F(CApiMemory, ThatTheHostLacksIsAnErrorWithoutALeak) {
   }
   memory.failAt = ~0U;
   EXPECT_EQ(walk(run).size(), 6U);
+}
+
+// The history goes on, too.
+TEST_F(CApiMemory, ThatTheHostLacksForAChangeLeavesWhatWasInUse) {
+  struct Change {
+    glm::ivec2 size;
+    const char* storage;
+  };
+  const auto run = [&](std::optional<Change> refused) {
+    Suballocator memory(context());
+    const WalrMemoryCallbacks callbacks = memory.callbacks();
+    HostedRun hosted(device(), "walr", kSize, {.deviceMemory = &callbacks});
+    const auto apply = [&](const Change& change) {
+      require(walr_resize(hosted.denoiser(), static_cast<std::uint32_t>(change.size.x),
+                          static_cast<std::uint32_t>(change.size.y)));
+      require(walr_set_setting(hosted.denoiser(), "accumulation.storage", change.storage));
+    };
+    std::vector<std::uint16_t> result;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      if (i == 3 && refused) {
+        const std::uint64_t before = memory.live;
+        apply(*refused);
+        memory.failAt = memory.calls;
+        EXPECT_EQ(walr_prepare(hosted.denoiser()), WALR_ERROR_OUT_OF_MEMORY);
+        EXPECT_EQ(memory.live, before);
+        memory.failAt = memory.calls;
+        apply({kSize, "packed"});  // Needs no more memory.
+      }
+      const FrameDescription camera = cameraAt({}, {}, kSize, i);
+      hosted.fill(renderFrame(sphere(), camera, kSize));
+      result = hosted.frame(camera);
+    }
+    return result;
+  };
+  const std::vector<std::uint16_t> expected = run(std::nullopt);
+  EXPECT_EQ(run(Change{2 * kSize, "packed"}), expected);
+  EXPECT_EQ(run(Change{kSize, "half"}), expected);
 }
 
 TEST_F(CApiMemory, ThatIsNotAsRequestedIsAnErrorAndFreed) {

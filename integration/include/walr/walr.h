@@ -244,7 +244,7 @@ typedef struct WalrConventions {
    * relative position in the rectangle has no motion, even if the size has changed. Jitter is in pixels of the
    * rectangle of its own frame. */
   VkBool32 rectangle;
-  /* The cameras are orthographic. Motion must have its third channel, and WalrDenoiserInfo::lint is refused. If a zoom
+  /* The cameras are orthographic. WALR_MOTION_DEPTH_STATIC_SCENE and WalrDenoiserInfo::lint are refused. If a zoom
    * doubles or halves the height of the view, the history may restart once. */
   VkBool32 orthographic;
   /* Sparse light: not every pixel of a frame has a sample. Methods that need all samples are refused. All other images
@@ -353,7 +353,7 @@ WALR_API WalrResult walr_destroy_denoiser(WalrDenoiser denoiser);
  *   pipeline is created only if a shader must be specialized for a value that it has not had yet.
  * - A setting that changes passes or textures creates new images and memory, and pipelines for new passes only. A
  *   history keeps its contents and length if the new passes have one of the same name and format. All others restart.
- * - A new size creates new images and memory, but no pipelines. The history is kept if WalrConventions::rectangle is
+ * - A new size creates new images and memory, and a pipeline only where a shader is specialized by it. The history is kept if WalrConventions::rectangle is
  *   set, and dropped otherwise.
  */
 WALR_API WalrResult walr_resize(WalrDenoiser denoiser, uint32_t width, uint32_t height);
@@ -573,7 +573,7 @@ typedef struct WalrView {
   const char* description; /* One line: what red, green and blue hold. */
 } WalrView;
 
-/* The views that the method has with its current settings. The texts are valid while the library is loaded.
+/* The views that the methods of all lights have with their current settings. The texts are valid while the library is loaded.
  * count: in: room at `views`; out: number of views. `views` may be null. */
 WALR_API WalrResult walr_get_views(WalrDenoiser denoiser, uint32_t* count, WalrView* views);
 
