@@ -82,10 +82,12 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
   // Reconstruction with blocks.residual measures where history is too long. In the next frame, antilag then shortens
   // it, and anti-aliasing its own.
   std::optional<SteeredHistory> history;
-  if (blocks.share.enabled && settings.accumulation.antilag.enabled) {
+  if (blocks.share.enabled) {
     history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory);
-    plan.leastAntilag = history->leastAntilag.previous;
-    plan.shortening = history->shortening.previous;
+    if (settings.accumulation.antilag.enabled) {
+      plan.leastAntilag = history->leastAntilag.previous;
+      plan.shortening = history->shortening.previous;
+    }
   }
   const auto [guides, accumulated] =
       addGuidesWithAccumulation(graph, inputs, settings.guides, needsOf(settings, plan), plan);

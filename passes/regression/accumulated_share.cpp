@@ -29,8 +29,12 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
   const bool packed = lightStorageOf(graph->textureDesc(inputs.accumulated).format) == LightStorage::Packed;
   // Beside the statistics of a tile's other pixels stand those of its pixels beside an edge.
   const fg::Extent twice = {2 * inputs.tiles.width, inputs.tiles.height};
-  const fg::History statistics = graph->history("residual statistics", {VK_FORMAT_R16G16B16A16_SFLOAT, twice});
-  const fg::History agreement = graph->history("residual agreement", {VK_FORMAT_R16G16B16A16_SFLOAT, inputs.tiles});
+  // Named by the size of tiles, because the history of another size is of other places.
+  const std::string ofTiles = " of " + std::to_string(inputs.tileSize) + " x " + std::to_string(inputs.tileSize);
+  const fg::History statistics =
+      graph->history("residual statistics" + ofTiles, {VK_FORMAT_R16G16B16A16_SFLOAT, twice});
+  const fg::History agreement =
+      graph->history("residual agreement" + ofTiles, {VK_FORMAT_R16G16B16A16_SFLOAT, inputs.tiles});
   // Without a history that somebody steers, history may be as long as packed light can count.
   const SteeredHistory history =
       inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples);

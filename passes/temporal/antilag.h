@@ -24,18 +24,19 @@ struct AntilagSettings {
   }
   void visit(SettingVisitor& v) {
     visitEnabled(v);
-    v.visit({"accumulation.antilag-low", "Change of the light up to which history counts in full; below antilag-high",
+    v.visit({"accumulation.antilag-low",
+             "With antilag: change of the light up to which history counts in full; below antilag-high",
              "standard errors", 0.0, 100.0, "measured"},
             scoreLow);
-    v.visit({"accumulation.antilag-high", "Change of the light from which history does not count", "standard errors",
-             0.0, 100.0, "measured"},
+    v.visit({"accumulation.antilag-high", "With antilag: change of the light from which history does not count",
+             "standard errors", 0.0, 100.0, "measured"},
             scoreHigh);
-    v.visit(
-        {"accumulation.fireflies",
-         "Samples of a window's history that must be about as bright as one that passes whole; brighter ones are held "
-         "back; 0: off",
-         "samples", 0.0, 1000.0, "measured"},
-        fireflies);
+    v.visit({"accumulation.fireflies",
+             "With antilag: samples of a window's history that must be about as bright as one that passes whole; "
+             "brighter ones are held "
+             "back; 0: off",
+             "samples", 0.0, 1000.0, "measured"},
+            fireflies);
   }
 };
 

@@ -67,8 +67,9 @@ Stage stageOf(StageGraph graph, fg::Extent extent, const DenoiserInputs& inputs,
               const TemporalAccumulationSettings& settings, bool keepTaps, fg::Texture leastAntilag,
               bool onGrid = false) {
   const fg::Extent accumulated = onGrid ? inputs.conventions.light.lightingExtent(extent) : extent;
+  const char* const name = onGrid ? "accumulated on the light grid" : "accumulated";
   Stage stage{graph,       inputs, guides, settings,
-              keepTaps,    onGrid, extent, graph->history("accumulated", {formatOf(settings.storage), accumulated}),
+              keepTaps,    onGrid, extent, graph->history(name, {formatOf(settings.storage), accumulated}),
               std::nullopt};
   if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent, leastAntilag);
   return stage;

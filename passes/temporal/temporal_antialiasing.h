@@ -45,7 +45,8 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-gamma", "Half size of the variance-clipping box", "standard deviations", 0.0, 1e6,
              "Meunier & Harada 2022, 4.4", followClipGamma},
             clipGamma);
-    visitThresholds(v, "antialiasing.plane-tolerance", "antialiasing.normal-threshold", thresholds);
+    // The history of specular light is that which accumulation accepted.
+    visitThresholds(v, "antialiasing.plane-tolerance", "antialiasing.normal-threshold", thresholds, kDiffuseLight);
     v.visit({"antialiasing.object-ids", "Tell surfaces apart by the host's object numbers, too, where it gives them",
              "", 0, 1, "Wang 2024, 3"},
             objectIds);
@@ -62,7 +63,7 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-radius", "Radius of the neighbourhood for variance clipping; 1 is 3x3", "pixels", 1, 8,
              "Meunier & Harada 2022, 4.4"},
             clipRadius);
-    visitRejection(v, "antialiasing.rejection", rejection);
+    visitRejection(v, "antialiasing.rejection", rejection, kDiffuseLight);
     v.visit({"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
              "Meunier & Harada 2022, 4.2"},
             dilateMotion);

@@ -6,6 +6,8 @@
 // Linear roughness as the host wrote it; NaN and infinity count as rough.
 float validRoughness(float r) { return isFinite(r) ? clamp(r, 0.0, 1.0) : 1.0; }
 
+const float kMirrorUpTo = 0.05;     // Roughness up to which a pixel shows one image (passes/SPECULAR.md).
+const float kLeastNearness = 1e-3;  // Depth over the distance of what is reflected; what is farther is far away.
 const float kLeastDistance = 1e-3;  // Of what is reflected, over view depth.
 
 // One over the distance of what is reflected, which is above 0. The largest half stands for all that is farther.

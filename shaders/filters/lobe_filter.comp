@@ -136,7 +136,7 @@ vec4 tapLight(int index) {
 }
 
 #ifdef FIRST
-// Standard deviation of the luminance of one sample over the pixels around, by their weights: from the differences of
+// Standard deviation of the luminance of one sample over the pixels around that have light: from the differences of
 // this frame's samples, or where hardly any pixel has a history, from those between the pixels.
 float deviationAround(int centre) {
   float squares = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, inverses = 0.0, weights = 0.0;
@@ -175,7 +175,7 @@ float errorAround(int centre) {
 
 void storeNoSurface(ivec2 p) {
 #if defined(LAST) && !defined(PACKED)
-  imageStore(outFiltered, p, vec4(passThroughLight(lighting, p), 1.0));
+  imageStore(outFiltered, p, vec4(passThroughSpecular(texelFetch(lighting, p, 0)), 1.0));
 #else
   imageStore(outFiltered, p, uvec4(kFilteredNoSurface));
 #endif

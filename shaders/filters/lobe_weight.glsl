@@ -8,6 +8,7 @@
 #ifndef WALR_LOBE_WEIGHT_GLSL
 #define WALR_LOBE_WEIGHT_GLSL
 #include "conventions/camera.glsl"
+#include "conventions/lobe.glsl"
 #include "conventions/reflector.glsl"
 
 const float kLog2OfE = 1.44269504;
@@ -16,7 +17,6 @@ float lobeShare(float angle) { return clamp(1.6 - 5.0 * angle, 0.7, 1.4); }
 const float kWidestLobe = 0.41;       // Half angle of the widest part, radians: normals turn by half of it.
 const float kMirrorAngle = 2.0 * kSharpUpTo * kSharpUpTo;  // weighedAngle of the roughest mirror.
 const float kDistanceFalloff = 5.0;   // -log2 of a mirror's weight where one pixel reflects twice as far as the other.
-const float kLeastNearness = 1e-3;    // Beyond, all is far away.
 const float kPlaneTolerance = 0.02;   // Distance from the plane at which the weight falls to 1/e, over depth.
 
 // How wide the lobe is, and how near what it meets.

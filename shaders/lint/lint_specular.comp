@@ -5,6 +5,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "conventions/frame.h"
 #include "conventions/camera.glsl"
+#include "conventions/lobe.glsl"
 #include "lint/lint_inputs.h"
 #include "lint/albedo_contrast.glsl"
 #include "walr/specular_albedo.h"
@@ -165,7 +166,6 @@ void countMotion(ivec2 p, vec3 told) {
 }
 
 void countReflection(Pixel at) {
-  const float kMirrorUpTo = 0.05;  // Up to this roughness a pixel shows one image (passes/SPECULAR.md).
   if (!(at.roughness >= 0.0 && at.roughness <= kMirrorUpTo)) return;
   if (!(at.distance > 0.0 && at.distance < min(frame.skyDepth, kLargestHalf))) return;
   if (!isFinite(at.normal) || length(at.normal) < 0.5) return;

@@ -1,4 +1,4 @@
-// Constants of the share of the accumulated light in the reconstruction: include/accumulated_share.glsl and
+// Constants of the share of the accumulated light in the reconstruction: accumulated_share.glsl and
 // residual_statistics.comp.
 #ifndef WALR_SHADERS_REGRESSION_ACCUMULATED_SHARE_H
 #define WALR_SHADERS_REGRESSION_ACCUMULATED_SHARE_H

@@ -11,7 +11,6 @@
 
 // Values of kReplacement (TapReplacement).
 const uint kNoReplacement = 0;
-const uint kUniformReplacement = 1;  // Any pixel before the edge, or the centre.
 const uint kNearReplacement = 2;     // One of the last third before the edge.
 
 // The pixel that is filtered.

@@ -1,5 +1,5 @@
-// Fits in storage buffers: one element per block or cell, row by row. include/block_fit.glsl makes them and
-// include/stored_fit.glsl evaluates them.
+// Fits in storage buffers: one element per block or cell, row by row. block_fit.glsl makes them and
+// stored_fit.glsl evaluates them.
 #ifndef WALR_SHADERS_REGRESSION_STORED_FIT_H
 #define WALR_SHADERS_REGRESSION_STORED_FIT_H
 #include "../common/types.h"
@@ -17,7 +17,7 @@ struct StoredFit {
 // The fit of a block, and the plane of the block's representative pixel.
 struct StoredBlockFit {
   StoredFit fit;
-  vec4 plane;  // Normal over depth, and the offset of include/plane.glsl. All 0 where there is no fit.
+  vec4 plane;  // Normal over depth, and the offset of conventions/plane.glsl. All 0 where there is no fit.
 };
 
 #ifdef __cplusplus

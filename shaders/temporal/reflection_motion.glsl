@@ -31,10 +31,8 @@ const float kMostTwist = 0.5;             // Of normals over a step, over the mi
 const float kRoundingOfTwist = 1e-4;      // Of four stored normals, each of which is within 2.2e-5 of its value.
 const float kRoughnessTolerance = 0.1;    // Largest difference between surface and history pixel.
 const float kFarthestObject = 3000.0;     // Over depth; what is farther is reflected from here.
-const float kMirrorUpTo = 0.05;           // Roughness up to which history must have the distance of what is reflected.
 const float kFollowsUpTo = 0.25;          // Roughness up to which things that move carry their images along.
 const float kDistanceTolerance = 1.25;    // Largest ratio of two distances of one thing.
-const float kLeastNearness = 1e-3;        // Depth over distance; what is farther is at one distance.
 const float kNoHistory = 4.0;             // A miss larger than that of any two directions.
 
 // A reflecting surface at a pixel, in the view space of its frame.

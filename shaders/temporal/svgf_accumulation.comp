@@ -164,7 +164,7 @@ void main() {
   imageStore(outView, p, vec4(viewOf(p, z, noisy), 1.0));
 #else
   if (z == 0.0) {
-    imageStore(outColour, p, vec4(passThroughLight(noisy.rgb), 0.0));
+    imageStore(outColour, p, vec4(kTapsGiven ? passThroughSpecular(noisy) : passThroughLight(noisy.rgb), 0.0));
     imageStore(outMoments, p, vec4(0.0));
 #ifdef SPECULAR
     imageStore(outLobes, p, uvec4(0u));

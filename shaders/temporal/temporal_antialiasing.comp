@@ -350,7 +350,7 @@ float longestHistoryAt(ivec2 p) {
   return mix(constants.maxHistory, 1.0, gatherBilinear(shortening, base, tile - base));
 }
 
-// The new running mean of pixel `p` and its history length. The filter of history may make it negative.
+// The new running mean of pixel `p` and its history length.
 vec4 resolve(ivec2 p, vec4 current, ResolvedHistory history) {
   // Without a sample in this frame the history stays as it is.
   if (current.a < 0.0) return history.light;
