@@ -8,6 +8,7 @@
 #include "samples/bench/variant_estimate.h"
 #include "tests/costs/figures.h"
 #include "tests/costs/limits.h"
+#include "tests/samples/temporary_directory.h"
 
 namespace walr::costs {
 namespace {
@@ -123,10 +124,10 @@ TEST_F(ShaderCostsOfTheDefault, CoverThePlan) {
 TEST_F(ShaderCostsOfTheDefault, GiveTheEstimatesThatProgramsComputeFromTheFigures) {
   if (const std::string other = otherCompiler(); !other.empty()) GTEST_SKIP() << other;
   const FigureTable table = figuresOf({costs_}, *device_, trips_, machineNamed("w6800"));
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "figures.json";
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "figures.json";
   std::ofstream(file) << figuresJson(table);
   const FigureTable read = readFigures(file);
-  std::filesystem::remove(file);
   EXPECT_TRUE(differences(read, table).empty()) << ::testing::PrintToString(differences(read, table));
 
   const Variant walr = parseMethods("walr").at(0);

@@ -68,6 +68,26 @@ TEST(Compile, WhatAPassLeavesUnreadCostsNothing) {
   EXPECT_EQ(bound.plan.traffic.bytesRead, 64U * 32 * 8 + 256);
 }
 
+TEST(Compile, WhatAPassBindsTwiceCountsOnceAsRead) {
+  constexpr TextureDesc kPyramid = {VK_FORMAT_R32_SFLOAT, {64, 32}, 2};
+  constexpr std::uint64_t kBase = 64 * 32 * 4;
+  constexpr SubresourceRange kFirst = {0, 1, 0, 1};
+  constexpr SubresourceRange kSecond = {1, 1, 0, 1};
+  Graph graph;
+  const Texture input = graph.import("input", kPyramid, test::kSampled);
+  const Texture other = graph.import("other", kPyramid, test::kSampled);
+  auto pass = graph.callback("filter", recordNothing).sideEffects();
+  const auto bytesRead = [&] { return compile(graph.desc(), TableMemoryModel()).plan.traffic.bytesRead; };
+  pass.access(input, Access::SampledRead, kFirst);
+  EXPECT_EQ(bytesRead(), kBase);
+  pass.access(input, Access::SampledRead, kFirst);
+  EXPECT_EQ(bytesRead(), kBase) << "the same level under another name";
+  pass.access(input, Access::SampledRead, kSecond);
+  EXPECT_EQ(bytesRead(), kBase + kBase / 4) << "another level of the texture";
+  pass.access(other, Access::SampledRead, kFirst);
+  EXPECT_EQ(bytesRead(), 2 * kBase + kBase / 4) << "the same level of another texture";
+}
+
 /// Passes "a" to "d", each of which writes a texture of its own, and "d" a second one; nobody reads what "a" writes.
 /// "a" and "b" form a batch. The textures of "d" need the memory of both.
 class UnreadWriteTest : public ::testing::Test {

@@ -131,7 +131,8 @@ TEST_P(DenoiserPlansTest, EqualsTheRecordedPlan) {
                              << "; write it with cmake --build build --target update_plans";
   const std::string now = rowOf(variant, plan(), text);
   if (*row == now) return;
-  const fs::path file = fs::path(testing::TempDir()) / (variant.name() + ".txt");
+  fs::create_directories(WALR_CHANGED_PLANS);
+  const fs::path file = fs::path(WALR_CHANGED_PLANS) / (variant.name() + ".txt");
   std::ofstream(file) << text;
   ADD_FAILURE() << "the plan of " << variant.name() << " has changed (" << kColumns << "):\n  recorded " << *row
                 << "\n  now      " << now << "\nThe plan of now is in " << file.string()

@@ -320,6 +320,27 @@ TEST_F(DiagnosticsTest, HistoryAgeOutsideThePushConstants) {
   expect(code::kHistoryAge, "filter", "", line);
 }
 
+TEST_F(DiagnosticsTest, HistoryAgeOfAnotherGraph) {
+  Graph other;
+  (void)other.history("past", kColor);
+  const History foreign = other.history("present", kColor);
+  (void)graph.history("past", kColor);
+  PassBuilder pass = graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  pass.constants(std::uint64_t{0}).historyAge(foreign, 4);
+  expect(code::kHistoryAge, "filter", "", line);
+  const std::string text = compile(graph.desc(), TableMemoryModel()).text();
+  EXPECT_NE(text.find("a history of another graph"), std::string::npos) << text;
+}
+
+TEST_F(DiagnosticsTest, HistoryAgeAtAnOffsetThatIsNoMultipleOfFour) {
+  const History history = graph.history("past", kColor);
+  PassBuilder pass = graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  pass.constants(std::uint64_t{0}).historyAge(history, 2);
+  expect(code::kHistoryAge, "filter", "", line);
+}
+
 TEST_F(DiagnosticsTest, DuplicatePassName) {
   graph.callback("twin", recordNothing).sideEffects();
   graph.callback("twin", recordNothing).sideEffects();
@@ -404,6 +425,14 @@ TEST_F(DiagnosticsTest, TwoLayoutsOfPartsOfAHistoryInOnePass) {
   pass.access(history.previous, Access::SampledRead, {0, 1, 0, 1});
   pass.access(history.previous, Access::StorageRead, {1, 1, 0, 1}).sideEffects();
   expect(code::kTwoLayouts, "reader", "past.previous");
+}
+
+TEST_F(DiagnosticsTest, IndirectArgumentsAtAnOffsetThatIsNoMultipleOfFour) {
+  const Buffer arguments = graph.upload("arguments", 16);
+  PassBuilder pass = graph.compute("filter", kFilter);
+  const auto line = __LINE__ - 1;
+  pass.dispatchIndirect(arguments, 2);
+  expect(code::kIndirectArguments, "filter", "arguments", line);
 }
 
 TEST_F(DiagnosticsTest, TwoLayoutsInOnePass) {

@@ -41,6 +41,12 @@ TEST(Inspect, FlagsWithoutANameAreHexadecimal) {
   EXPECT_EQ(accessNames(VK_ACCESS_2_NONE), "NONE");
 }
 
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
 class InspectChainTest : public ::testing::Test {
  protected:
   InspectChainTest() {
@@ -77,13 +83,16 @@ TEST_F(InspectChainTest, DotHasEveryPassOnceAndTheCulledOneDashed) {
        {"\"t.a v1\" -> \"pass b\"", "\"pass b\" -> \"t.b v1\"", "\"pass vain\" [shape=box, style=dashed"}) {
     EXPECT_NE(dot.find(edge), std::string::npos) << edge << "\n" << dot;
   }
+  for (const char* name : {"a", "b", "c", "d", "vain"}) {
+    EXPECT_EQ(occurrences(dot, "  \"pass " + std::string(name) + "\" ["), 1U) << name << "\n" << dot;
+  }
+  EXPECT_EQ(occurrences(dot, "shape=box"), 5U) << "no other pass\n" << dot;
+  EXPECT_EQ(occurrences(dot, "style=dashed"), 1U) << "no other culled pass\n" << dot;
 }
 
 TEST_F(InspectChainTest, SvgHasARectangleForEveryTransient) {
   const std::string svg = toSvg(graph_.desc(), plan_);
-  std::size_t rectangles = 0;
-  for (std::size_t at = svg.find("<rect"); at != std::string::npos; at = svg.find("<rect", at + 1)) ++rectangles;
-  EXPECT_EQ(rectangles, 3U);
+  EXPECT_EQ(occurrences(svg, "<rect"), 3U);
 }
 
 TEST_F(InspectChainTest, WhyNamesTheReason) {

@@ -140,7 +140,7 @@ class Generator {
     const int index = pick(from);
     if (index < 0) return;
     const TextureState& state = from[static_cast<std::size_t>(index)];
-    pass.access(state.handle, randomRead(), state.history ? SubresourceRange{} : randomRange(state.desc));
+    pass.access(state.handle, randomRead(), randomRange(state.desc));
   }
 
   void readBuffer(PassBuilder& pass) {
@@ -203,6 +203,9 @@ class Generator {
                                       kCopied,         kAnyCommand,      kSampledAnywhere};
     for (const TextureState& state : readable_) {
       if (chance(35)) graph_.exported(state.handle, kReleases[below(kReleases.size())]);
+    }
+    for (const TextureState& state : previous_) {
+      if (chance(10)) graph_.exported(state.handle, kReleases[below(kReleases.size())]);
     }
     for (const BufferState& state : buffers_) {
       if (!state.readOnly && chance(30)) graph_.exported(state.handle, kComputeSampled);

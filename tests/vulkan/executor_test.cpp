@@ -7,6 +7,7 @@
 
 #include "framegraph/vulkan/error.h"
 #include "tests/error_text.h"
+#include "tests/samples/temporary_directory.h"
 #include "tests/vulkan/gpu_fixture.h"
 #include "tests/vulkan/graph_run.h"
 #include "tests/vulkan/test_graphs.h"
@@ -413,16 +414,6 @@ TEST_F(ExecutorTest, PlanOfAnotherDeviceIsRefusedByName) {
 
 class PipelineCacheTest : public GpuTest {
  protected:
-  void SetUp() override {
-    GpuTest::SetUp();
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    file_ = std::filesystem::temp_directory_path() / (std::string("walr_pipeline_cache_") + test->name());
-    std::filesystem::remove(file_);
-  }
-  void TearDown() override {
-    std::filesystem::remove(file_);
-    GpuTest::TearDown();
-  }
   void runWith(vk::PipelineCache& cache) const {
     Graph graph;
     const Texture out = chain(graph, 0, 2);
@@ -430,7 +421,8 @@ class PipelineCacheTest : public GpuTest {
     run.frame();
     EXPECT_EQ(run.texels<std::uint32_t>(out), filled(2));
   }
-  std::filesystem::path file_;
+  const walr::test::TemporaryDirectory directory_;
+  const std::filesystem::path file_ = directory_.path() / "pipeline_cache";
 };
 
 TEST_F(PipelineCacheTest, IsKeptInAFile) {

@@ -9,13 +9,14 @@ namespace {
 class HistoryTest : public GpuTest {
  protected:
   /// Run a frame and check what it found: `previous` as so many frames left it, and that age.
-  static void expectFrame(GraphRun& run, const CountingGraph& counting, std::uint32_t framesBehind) {
+  static void expectFrame(GraphRun& run, const CountingGraph& counting, std::uint32_t framesBehind,
+                          Extent extent = kTexture.extent) {
     const vk::HistoryStatus status = run.executor().historyStatus(counting.history);
     EXPECT_EQ(status.age, framesBehind);
     EXPECT_EQ(status.valid, framesBehind != 0);
     run.frame();
-    EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(framesBehind + 1));
-    EXPECT_EQ(run.texels<std::uint32_t>(counting.age), constant(framesBehind));
+    EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(framesBehind + 1, extent));
+    EXPECT_EQ(run.texels<std::uint32_t>(counting.age), constant(framesBehind, extent));
   }
 };
 
@@ -45,13 +46,32 @@ TEST_F(HistoryTest, CarriesWhileFramesAreInFlight) {
   EXPECT_EQ(run.texels<std::uint32_t>(counting.count), constant(25));
 }
 
-TEST_F(HistoryTest, ResizeStartsOver) {
-  CountingGraph counting;
-  for (int i = 0; i < 2; ++i) {
-    GraphRun run(device(), counting.graph);
-    expectFrame(run, counting, 0);
-    expectFrame(run, counting, 1);
+/// Half as large as `kTexture`, which is cropped and not scaled: the passes read texel by texel.
+constexpr TextureDesc kHalf{kTexture.format, {kTexture.extent.width / 2, kTexture.extent.height / 2}};
+
+TEST_F(HistoryTest, ResizeGoesOnFromAPredecessorOfAnotherExtent) {
+  for (std::uint32_t framesBefore = 0; framesBefore <= 3; ++framesBefore) {
+    CountingGraph whole;
+    CountingGraph half(kHalf);
+    GraphRun before(device(), whole.graph);
+    for (std::uint32_t i = 0; i < framesBefore; ++i) before.submitFrame();
+    GraphRun run(device(), half.graph, {.predecessor = &before.executor()});
+    // The first frame reads the image of the old extent, the later ones those of the new.
+    for (std::uint32_t i = 0; i < 3; ++i) expectFrame(run, half, framesBefore + i, kHalf.extent);
+    run.executor().resetAllHistory();
+    expectFrame(run, half, 0, kHalf.extent);
   }
+}
+
+TEST_F(HistoryTest, ResizeStartsOverWithoutAPredecessorOrWhereItIsAskedTo) {
+  CountingGraph whole;
+  CountingGraph half(kHalf);
+  GraphRun before(device(), whole.graph);
+  for (std::uint32_t i = 0; i < 2; ++i) expectFrame(before, whole, i);
+  GraphRun anew(device(), half.graph, {.predecessor = &before.executor(), .inheritHistories = false});
+  for (std::uint32_t i = 0; i < 2; ++i) expectFrame(anew, half, i, kHalf.extent);
+  GraphRun unrelated(device(), whole.graph);
+  for (std::uint32_t i = 0; i < 2; ++i) expectFrame(unrelated, whole, i);
 }
 
 TEST_F(HistoryTest, GoesOnFromAPredecessorAtEitherParityAndInFlight) {
@@ -132,18 +152,35 @@ TEST_F(HistoryTest, GoesOnFromAnotherGraphWhereTheNameIsTheSame) {
   expectFrame(last, counting, 0);
 }
 
-TEST_F(HistoryTest, StartsOverWhereTheFormatIsAnotherOrWhereItIsAskedTo) {
+/// A history that goes by the name of the counter and is used like it, so that only its description differs.
+struct OtherImages {
+  explicit OtherImages(const TextureDesc& desc) {
+    const History history = graph.history("counter", desc);
+    auto pass = graph.callback("write", [](const RecordContext&) {});
+    pass.sample("i", history.previous).sideEffects();
+    static_cast<void>(pass.store("o", history.current));
+  }
   Graph graph;
-  auto writer = graph.callback("write", [](const RecordContext&) {});
-  static_cast<void>(writer.store("o", graph.history("counter", {VK_FORMAT_R32_SFLOAT, kTexture.extent}).current));
-  writer.sideEffects();
-  GraphRun floats(device(), graph);
-  floats.frame();
+};
+
+TEST_F(HistoryTest, StartsOverWhereFormatMipLevelsOrLayersAreOthersOrWhereItIsAskedTo) {
   CountingGraph counting;
-  GraphRun run(device(), counting.graph, {.predecessor = &floats.executor()});
-  expectFrame(run, counting, 0);
-  GraphRun anew(device(), counting.graph, {.predecessor = &run.executor(), .inheritHistories = false});
-  expectFrame(anew, counting, 0);
+  for (const TextureDesc& desc :
+       {TextureDesc{VK_FORMAT_R32_SFLOAT, kTexture.extent}, TextureDesc{kTexture.format, kTexture.extent, 2},
+        TextureDesc{kTexture.format, kTexture.extent, 1, 2}}) {
+    const OtherImages other(desc);
+    GraphRun before(device(), other.graph);
+    before.frame();
+    GraphRun run(device(), counting.graph, {.predecessor = &before.executor()});
+    expectFrame(run, counting, 0);
+    GraphRun anew(device(), counting.graph, {.predecessor = &run.executor(), .inheritHistories = false});
+    expectFrame(anew, counting, 0);
+  }
+  const OtherImages same(kTexture);
+  GraphRun before(device(), same.graph);
+  before.frame();
+  GraphRun run(device(), counting.graph, {.predecessor = &before.executor()});
+  EXPECT_EQ(run.executor().historyStatus(counting.history).age, 1U) << "nothing but the description stood against it";
 }
 
 TEST_F(HistoryTest, PipelinesOfAPredecessorAreShared) {

@@ -72,10 +72,10 @@ inline Texture chain(Graph& graph, std::uint32_t start, std::uint32_t length) {
 /// A history that counts frames, read back as "count". Its age, which the pass gets as a push constant, is read back as
 /// "age".
 struct CountingGraph {
-  CountingGraph() {
-    history = graph.history("counter", kTexture);
-    count = importOutput(graph, "count");
-    age = importOutput(graph, "age");
+  explicit CountingGraph(const TextureDesc& desc = kTexture) {
+    history = graph.history("counter", desc);
+    count = importOutput(graph, "count", desc);
+    age = importOutput(graph, "age", desc);
     struct Push {
       std::uint32_t unrelated = 0;
       std::uint32_t age = 12345;  // Overwritten by the executor.
@@ -86,7 +86,7 @@ struct CountingGraph {
                     .historyAge(history, offsetof(Push, age));
     const Texture current = pass.store("current", history.current);
     const Texture told = pass.store("toldAge", age);
-    pass.dispatch(kTexture.extent);
+    pass.dispatch(desc.extent);
     graph.exported(add(graph, "show", current, count, 0), vk::kReadable);
     graph.exported(told, vk::kReadable);
   }
