@@ -62,16 +62,22 @@ class Borders {
     return {last.stage, last.writeMask, last.layout};
   }
 
-  // A mip level or layer of an import that no pass uses is released all the same.
+  // A mip level or layer of an import, or a previous history, that no pass uses is released all the same.
 
   [[nodiscard]] ExternalState unusedEntry(std::uint32_t resource, std::uint32_t subresource) const {
     const PlannedBarrier* barrier = find(plan_.releases, resource, subresource);
-    return barrier != nullptr ? before(*barrier) : graph_.resources[resource].acquire.value_or(ExternalState{});
+    return barrier != nullptr ? before(*barrier) : arrival(resource);
   }
 
   [[nodiscard]] ExternalState unusedExit(std::uint32_t resource, std::uint32_t subresource) const {
     const PlannedBarrier* barrier = find(plan_.releases, resource, subresource);
-    return barrier != nullptr ? after(*barrier) : graph_.resources[resource].acquire.value_or(ExternalState{});
+    return barrier != nullptr ? after(*barrier) : arrival(resource);
+  }
+
+  [[nodiscard]] ExternalState arrival(std::uint32_t resource) const {
+    const ResourceDecl& decl = graph_.resources[resource];
+    if (decl.lifetime == Lifetime::HistoryPrevious) return plan_.histories[decl.history].carry;
+    return decl.acquire.value_or(ExternalState{});
   }
 
   static ExternalState before(const PlannedBarrier& barrier) {

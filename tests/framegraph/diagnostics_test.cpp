@@ -422,8 +422,9 @@ TEST_F(DiagnosticsTest, TwoLayoutsOfPartsOfAHistoryInOnePass) {
   const History history = graph.history("past", desc);
   graph.callback("writer", recordNothing).access(history.current, Access::StorageWrite);
   auto pass = graph.callback("reader", recordNothing);
+  pass.sideEffects();
   pass.access(history.previous, Access::SampledRead, {0, 1, 0, 1});
-  pass.access(history.previous, Access::StorageRead, {1, 1, 0, 1}).sideEffects();
+  pass.access(history.previous, Access::StorageRead, {1, 1, 0, 1});
   expect(code::kTwoLayouts, "reader", "past.previous");
 }
 

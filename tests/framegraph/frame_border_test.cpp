@@ -87,8 +87,7 @@ TEST(FrameBorder, LeadsFromOneFrameToTheNextInRandomGraphs) {
     ASSERT_TRUE(result.ok()) << result.text();
     const std::vector<FrameBorder> borders = frameBorders(desc, result.plan);
     for (const HistoryDecl& history : desc.histories) {
-      // The border of a `previous` that is exported and that no pass reads is not that of `current` yet.
-      if (result.plan.resources[history.previous].firstUse == kNone) continue;
+      if (!result.plan.resources[history.previous].used) continue;
       ASSERT_EQ(borders[history.previous].entry, borders[history.current].exit);
       ++carried;
     }
