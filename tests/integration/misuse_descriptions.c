@@ -31,6 +31,8 @@ static void test_device(const Host* host) {
   EXPECT(walr_check_device(NULL), WALR_ERROR_INVALID_ARGUMENT, "WalrDevice is null");
   device.struct_size = 0;
   EXPECT(walr_check_device(&device), WALR_ERROR_STRUCT_SIZE, "sizeof(WalrDevice)");
+  device.struct_size = sizeof(WalrDevice) - 4; /* Ends inside a pointer. */
+  EXPECT(walr_check_device(&device), WALR_ERROR_STRUCT_SIZE, "sizeof(WalrDevice)");
   device = device_of(host);
   device.get_instance_proc_addr = NULL;
   EXPECT(walr_check_device(&device), WALR_ERROR_INVALID_ARGUMENT, "get_instance_proc_addr is null");
@@ -92,6 +94,7 @@ static void test_create(const WalrDevice* device) {
   REFUSED("4 channels", CONVENTIONS(.light_masked = VK_TRUE), info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32);
   REFUSED("4 channels", CONVENTIONS(.light_counted = VK_TRUE),
           info.lighting_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32);
+  REFUSED("needs a sample of light at every pixel", CONVENTIONS(.light_masked = VK_TRUE), info.method = "svgf");
 #undef CONVENTIONS
   EXPECT_TRUE(denoiser == NULL);
 
