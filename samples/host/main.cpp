@@ -167,7 +167,7 @@ void run(HostOptions& options) {
     std::cerr << "warning: " << warning << '\n';
   }
   if (options.frames.empty()) {
-    const int last = window ? std::max(kLastFrame, static_cast<int>(tracer.lastAnimationFrame())) : kLastFrame;
+    const int last = window ? std::max(kLastFrame, tracer.lastAnimationFrame()) : kLastFrame;
     options.frames = "0-" + std::to_string(last);
   }
   const float stops = exposure ? *exposure : tracer.exposure(parseFrameRange(options.frames).first);
