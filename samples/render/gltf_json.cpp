@@ -148,6 +148,17 @@ bool plainDataUri(Json& owner, const std::string& buffer) {
   return true;
 }
 
+// A material that says nothing of its colour or light is white like a primitive without a material. The specification's
+// default is a metal, which would be black without specular light.
+bool whiten(Json& material) {
+  constexpr std::array kTelling = {"pbrMetallicRoughness", "emissiveFactor", "extensions"};
+  if (!material.is_object() || std::ranges::any_of(kTelling, [&](const char* key) { return material.contains(key); })) {
+    return false;
+  }
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0.0;
+  return true;
+}
+
 }  // namespace
 
 bool isSupported(const std::string& extension) {
@@ -168,6 +179,7 @@ std::optional<std::string> prepareJson(std::string_view text, bool hasChunk, std
   // Not rendered. The parser demands members of them that the specification does not.
   bool changed = json.is_object() && json.erase("skins") > 0;
   for (Json& image : elements(json, "images")) changed = plainDataUri(image, "") || changed;
+  for (Json& material : elements(json, "materials")) changed = whiten(material) || changed;
   const std::span<Json> buffers = elements(json, "buffers");
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     Json& buffer = buffers[i];

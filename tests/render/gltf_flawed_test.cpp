@@ -251,5 +251,58 @@ TEST_F(FlawedGltf, ReadsDiffuseColoursOfSpecularGlossiness) {
   expectError({"material 0 diffuseTexture", "no texture 7"});
 }
 
+// Its roughness is 1 - glossiness. Without diffuse light it is a metal, and F0 of .04 is that of all dielectrics.
+TEST_F(FlawedGltf, ReadsTheSpecularLobeOfSpecularGlossinessAsFarAsItCan) {
+  const std::string name = "KHR_materials_pbrSpecularGlossiness";
+  builder.json["extensionsUsed"] = {name};
+  Json& material = builder.material()["extensions"][name];
+  material = {{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1.0, 0.75, 0.25}}, {"glossinessFactor", 0.75}};
+  Scene scene = load();
+  EXPECT_EQ(scene.warnings.size(), 1U) << testing::PrintToString(scene.warnings);  // Of the camera.
+  EXPECT_EQ(scene.materials[0].metallic, 1.0F);
+  EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(1.0F, 0.75F, 0.25F));
+  EXPECT_EQ(scene.materials[0].roughness, 0.25F);
+  material = {{"diffuseFactor", {0.5, 0.5, 0.5, 1}}, {"specularFactor", {0.04, 0.04, 0.04}}, {"glossinessFactor", 0.5}};
+  scene = load();
+  EXPECT_EQ(scene.warnings.size(), 1U) << testing::PrintToString(scene.warnings);
+  EXPECT_EQ(scene.materials[0].metallic, 0.0F);
+  EXPECT_EQ(scene.materials[0].roughness, 0.5F);
+  material["specularFactor"] = {0.5, 0.25, 0.25};
+  loadWithWarning({"material 0", "specular colours", "--specular"});
+  material = {{"specularFactor", {0, 0, 0}}, {"specularGlossinessTexture", {{"index", 0}}}};
+  EXPECT_EQ(loadWithWarning({"material 0", "glossiness textures"}).materials[0].roughness, 1.0F);
+}
+
+// 3.7.2.1 makes both a metal, which would be black without specular light.
+TEST_F(FlawedGltf, ObjectsWithoutAnyColourAreWhite) {
+  for (const bool named : {false, true}) {
+    if (named) {
+      builder.json["materials"] = {{{"name", "clay"}, {"doubleSided", true}}};
+    } else {
+      builder.primitive().erase("material");
+    }
+    const Scene scene = load();
+    const Material& material = scene.materials[scene.meshes.at(0).material];
+    EXPECT_EQ(material.baseColor, glm::vec3(1.0F)) << named;
+    EXPECT_EQ(material.metallic, 0.0F) << named;
+    EXPECT_EQ(material.roughness, 1.0F) << named;
+    builder.primitive()["material"] = 0;
+  }
+  builder.material() = {{"pbrMetallicRoughness", Json::object()}};
+  EXPECT_EQ(load().materials[0].metallic, 1.0F);
+}
+
+// The factor alone would make all of the object a lamp.
+TEST_F(FlawedGltf, AMaterialWithoutItsEmissiveTextureDoesNotEmit) {
+  builder.json["images"] = {{{"uri", "nowhere.png"}}};
+  builder.json["textures"] = {{{"source", 0}}};
+  builder.material() = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}};
+  const Scene scene = load();
+  EXPECT_FALSE(scene.materials[0].emits());
+  ASSERT_EQ(scene.warnings.size(), 3U) << testing::PrintToString(scene.warnings);
+  fg::test::expectContains(scene.warnings[0], {"nowhere.png", "not found"});
+  fg::test::expectContains(scene.warnings[1], {"material 0", "emissive texture is missing", "does not emit"});
+}
+
 }  // namespace
 }  // namespace walr::render
