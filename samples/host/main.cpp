@@ -71,6 +71,9 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
     throw UsageError(
         "without a window, frames are written to a folder or a file: give --output DIR or --record FILE.webp");
   }
+  if (options.exr && options.output.empty()) {
+    throw UsageError("--exr: EXR files are written to a folder: give --output DIR");
+  }
   if (options.targetMilliseconds > 0.0) {
     throw UsageError("--target-ms: without a window, all frames have the size of --size");
   }
