@@ -59,6 +59,10 @@ void renderFrames(RenderArguments& arguments) {
   if (!arguments.referenceFrames.empty()) {
     options.referenceFrames = parseFrameRange(arguments.referenceFrames, "--reference-frames");
   }
+  if (options.referenceSamples > 0 && options.references() == 0) {
+    throw UsageError("--reference-frames " + arguments.referenceFrames + ": none of them is one of --frames " +
+                     arguments.frames);
+  }
   options.width = extent.width;
   options.height = extent.height;
 
@@ -159,17 +163,24 @@ void registerRender(CLI::App& program) {
                     "Materials reflect with the specular lobe of glTF, too: frames and references also hold its light, "
                     "distances, roughness and albedo");
   command
-      ->add_flag(
-          "--replace-mirrors", options.replaceMirrors,
-          "Metals of a linear roughness below 0.15 are mirrors: their pixels hold the virtual image of the surface "
-          "that they reflect, in all channels; the mirrors are taken to stand still")
+      ->add_flag("--replace-mirrors", options.replaceMirrors,
+                 "Metals (metallic of at least 0.95) of a linear roughness below 0.15 are mirrors: their pixels hold "
+                 "the virtual image of the surface that they reflect, in all channels; the mirrors are taken to stand "
+                 "still")
       ->needs("--specular");
   command->add_option("--threads", options.threads, "Number of threads for --tracer cpu; 0: one per core")
       ->capture_default_str();
   addTracerOption(*command, arguments->tracer);
   addDeviceOptions(*command, arguments->gpu);
   command->footer(kExitCodeHelp);
-  command->callback([=] { renderFrames(*arguments); });
+  command->callback([=] {
+    for (const char* const option : {"--reference-frames", "--reference-pixel", "--reference-one-square-in"}) {
+      if (command->count(option) > 0 && arguments->options.referenceSamples == 0) {
+        throw UsageError(std::string(option) + ": there are no references without --reference-spp");
+      }
+    }
+    renderFrames(*arguments);
+  });
 }
 
 }  // namespace walr

@@ -34,6 +34,10 @@ FrameRange parseFrameRange(const std::string& text, const std::string& option) {
   if (!pair || pair->first > pair->second) {
     throw UsageError(option + " " + text + ": give a first and a last frame number, as in " + option + " 0-31");
   }
+  if (pair->second > FrameRange::kMost) {
+    throw UsageError(option + " " + text + ": frames have numbers of up to nine digits, 0 to " +
+                     std::to_string(FrameRange::kMost));
+  }
   return {pair->first, pair->second};
 }
 

@@ -107,8 +107,9 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
   program
       .add_flag_callback(
           "--replace-mirrors", [&tracer] { tracer.gbuffer = render::GBufferMode::BehindMirrors; },
-          "Metals of a linear roughness below 0.15 are mirrors: their pixels hold the virtual image of the surface "
-          "that they reflect, whose light is denoised; the mirrors are taken to stand still")
+          "Metals (metallic of at least 0.95) of a linear roughness below 0.15 are mirrors: their pixels hold the "
+          "virtual image of the surface that they reflect, whose light is denoised; the mirrors are taken to stand "
+          "still")
       ->needs("--specular");
   program.add_option("--threads", tracer.threads, "Threads for --tracer cpu; 0: one per core")->capture_default_str();
   addTracerOption(program, options.tracerChoice);

@@ -71,6 +71,9 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
     throw UsageError(
         "without a window, frames are written to a folder or a file: give --output DIR or --record FILE.webp");
   }
+  if (options.exr && options.output.empty()) {
+    throw UsageError("--exr: EXR files are written to a folder: give --output DIR");
+  }
   if (options.targetMilliseconds > 0.0) {
     throw UsageError("--target-ms: without a window, all frames have the size of --size");
   }
@@ -167,7 +170,7 @@ void run(HostOptions& options) {
     std::cerr << "warning: " << warning << '\n';
   }
   if (options.frames.empty()) {
-    const int last = window ? std::max(kLastFrame, static_cast<int>(tracer.lastAnimationFrame())) : kLastFrame;
+    const int last = window ? std::max(kLastFrame, tracer.lastAnimationFrame()) : kLastFrame;
     options.frames = "0-" + std::to_string(last);
   }
   const float stops = exposure ? *exposure : tracer.exposure(parseFrameRange(options.frames).first);

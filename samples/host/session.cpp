@@ -186,7 +186,7 @@ void Session::cutCamera() {
 }
 
 void Session::sceneChanged() {
-  frames_ = {0, static_cast<int>(tracer_.lastAnimationFrame())};
+  frames_ = {0, tracer_.lastAnimationFrame()};
   animationFrame_ = objectFrame_ = frames_.first;
   cameraMode_ = CameraMode::Scene;
   camera_.reset();

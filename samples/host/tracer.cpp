@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "samples/render/scene_error.h"
 #include "samples/render/sequence_frame.h"
 #include "samples/render/view.h"
+#include "samples/sequence/sequence.h"
 
 namespace walr::host {
 namespace {
@@ -72,12 +74,13 @@ glm::mat4 Tracer::sceneCamera(double animationFrame) const {
   return render::viewFromNode(nodes[content_->camera], content_->scene.nodes[content_->camera].name);
 }
 
-double Tracer::lastAnimationFrame() const {
+int Tracer::lastAnimationFrame() const {
   float last = 0.0F;
   for (const render::AnimationChannel& channel : content_->scene.animation) {
     last = std::max(last, channel.times.back());
   }
-  return last * options_.framesPerSecond;
+  // Rounded, because times in float fall short of their frames: float(95 / 24.0) * 24 is less than 95.
+  return static_cast<int>(std::lround(std::clamp(last * options_.framesPerSecond, 0.0, double{FrameRange::kMost})));
 }
 
 glm::vec4 Tracer::bounds() const {

@@ -103,8 +103,8 @@ class Tracer {
   [[nodiscard]] std::string whyNotResampled() const;
   /// Pose of the scene's camera in a frame of the animation: world to view space.
   [[nodiscard]] glm::mat4 sceneCamera(double animationFrame) const;
-  /// Number of the animation's last frame; 0 for a static scene.
-  [[nodiscard]] double lastAnimationFrame() const;
+  /// Number of the frame that is nearest to the animation's end; 0 for a static scene.
+  [[nodiscard]] int lastAnimationFrame() const;
   /// Centre (x, y, z) and radius (w) of a bounding sphere of the scene, in scene units.
   [[nodiscard]] glm::vec4 bounds() const;
 

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "samples/render/animation.h"
+#include "samples/render/scene_error.h"
+#include "samples/render/view.h"
 
 namespace walr::render {
 
@@ -44,10 +46,17 @@ void addFramingCamera(Scene& scene) {
   if (!(distance > 0.0F)) distance = 1.0F;  // All vertices lie in one point.
   camera.znear = 0.01F * distance;
   camera.zfar = 100.0F * distance;
+  const glm::vec3 position = centre + distance * back;
+  const glm::vec3 size = glm::abs(position);
+  if (!(glm::max(size.x, glm::max(size.y, size.z)) <= kFarthestCamera)) {
+    throw SceneError(
+        "the scene has no camera, and one that frames all of it would be farther than 1e6 scene units from the origin; "
+        "add a camera, or make the scene smaller");
+  }
   Node node;
   node.name = "camera";
-  node.matrix = glm::mat4(glm::vec4(right, 0.0F), glm::vec4(up, 0.0F), glm::vec4(back, 0.0F),
-                          glm::vec4(centre + distance * back, 1.0F));
+  node.matrix =
+      glm::mat4(glm::vec4(right, 0.0F), glm::vec4(up, 0.0F), glm::vec4(back, 0.0F), glm::vec4(position, 1.0F));
   node.camera = static_cast<std::uint32_t>(scene.cameras.size());
   scene.cameras.push_back(camera);
   scene.nodes.push_back(node);

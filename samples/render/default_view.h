@@ -21,6 +21,7 @@ Box boundingBox(const Scene& scene, std::span<const glm::mat4> worldFromNode);
 
 /// Add a camera that frames the scene's bounding box at the start of its animation, in a three-quarter view from the
 /// front and above. The whole box is seen in pictures that are at least as wide as high.
+/// @throws SceneError if the camera would be farther from the origin than `kFarthestCamera`
 void addFramingCamera(Scene& scene);
 
 }  // namespace walr::render

@@ -42,7 +42,7 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
   for (int mirrors = 0;; ++mirrors) {
     const std::optional<Hit> hit = world.rays().closest(ray);
     if (!hit) {
-      result.pixel.emission = result.tint * world.sky().radiance(ray.direction);
+      result.pixel.emission += result.tint * world.sky().radiance(ray.direction);
       const glm::vec3 previousDirection = glm::mat3(view.previousViewFromWorld) * primary.direction;
       result.pixel.motion = glm::vec3(imageMotion(view, x, y, previousDirection), 0.0F);
       return result;
@@ -51,6 +51,7 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
     const bool isMirror = mode == GBufferMode::BehindMirrors && exact::isMirror(surface.metallic, surface.roughness);
     if (isMirror && mirrors < exact::kMostMirrors) {
       const glm::vec3 direction = exact::mirrorDirection(surface.shadingNormal, surface.towardsViewer);
+      result.pixel.emission += result.tint * surface.emission;
       result.tint *= mirrorWeight(surface, direction);
       imageFromWorld = imageFromWorld * exact::reflectionAt(surface.shadingNormal, surface.position);
       ray = {rayOrigin(surface, direction), direction};
@@ -62,7 +63,7 @@ PrimaryHit tracePrimary(const World& world, const View& view, std::uint32_t x, s
     result.pixel.position = position;
     result.pixel.normal = glm::mat3(viewFromWorld) * surface.shadingNormal;
     result.pixel.albedo = result.tint * surface.albedo;
-    result.pixel.emission = result.tint * surface.emission;
+    result.pixel.emission += result.tint * surface.emission;
     result.pixel.motion = glm::vec3(imageMotion(view, x, y, previous), position.z - previous.z);
     result.pixel.objectId = hit->instance;
     result.surface = surface;

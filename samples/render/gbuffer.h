@@ -20,7 +20,7 @@ struct GBufferPixel {
   glm::vec3 position{0.0F};  ///< View space; 0 on sky.
   glm::vec3 normal{0.0F};    ///< View space shading normal towards the camera, unit; 0 on sky.
   glm::vec3 albedo{0.0F};    ///< Diffuse; 0 on sky and on metals.
-  glm::vec3 emission{0.0F};  ///< Radiance of a visible emitter or of the sky.
+  glm::vec3 emission{0.0F};  ///< Radiance of a visible emitter or of the sky, and of the mirrors in between.
   glm::vec3 motion{0.0F};    ///< Pixels to the previous frame, y down, between the jittered images; z: previous minus
                              ///< current view depth. On sky: motion of the ray's direction, z = 0.
   std::uint32_t objectId = kSky;  ///< Index of the instance (`World::instances`).

@@ -148,6 +148,40 @@ bool plainDataUri(Json& owner, const std::string& buffer) {
   return true;
 }
 
+// A URI is decoded like a form, with a space for each "+", but in it a plus is a plus (RFC 3986).
+bool keepPlus(Json& owner) {
+  const Json& uri = member(owner, "uri");
+  if (!uri.is_string()) return false;
+  auto text = uri.get<std::string>();
+  if (text.starts_with("data:") || text.find('+') == std::string::npos) return false;
+  for (std::size_t at = text.find('+'); at != std::string::npos; at = text.find('+', at)) text.replace(at, 1, "%2B");
+  owner["uri"] = text;
+  return true;
+}
+
+// The parser demands a node of every channel, which those of KHR_animation_pointer lack, for instance.
+bool markChannelsWithoutNode(Json& animation) {
+  bool changed = false;
+  if (!member(animation, "channels").is_array()) return false;
+  for (Json& channel : animation["channels"]) {
+    if (!member(channel, "target").is_object() || channel["target"].contains("node")) continue;
+    channel["target"]["node"] = kNoNode;
+    changed = true;
+  }
+  return changed;
+}
+
+// A material that says nothing of its colour or light is white like a primitive without a material. The specification's
+// default is a metal, which would be black without specular light.
+bool whiten(Json& material) {
+  constexpr std::array kTelling = {"pbrMetallicRoughness", "emissiveFactor", "extensions"};
+  if (!material.is_object() || std::ranges::any_of(kTelling, [&](const char* key) { return material.contains(key); })) {
+    return false;
+  }
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0.0;
+  return true;
+}
+
 }  // namespace
 
 bool isSupported(const std::string& extension) {
@@ -167,11 +201,13 @@ std::optional<std::string> prepareJson(std::string_view text, bool hasChunk, std
   for (const char* const part : {"nodes", "materials"}) checkNumbers(member(json, part), part);
   // Not rendered. The parser demands members of them that the specification does not.
   bool changed = json.is_object() && json.erase("skins") > 0;
-  for (Json& image : elements(json, "images")) changed = plainDataUri(image, "") || changed;
+  for (Json& image : elements(json, "images")) changed = plainDataUri(image, "") || keepPlus(image) || changed;
+  for (Json& animation : elements(json, "animations")) changed = markChannelsWithoutNode(animation) || changed;
+  for (Json& material : elements(json, "materials")) changed = whiten(material) || changed;
   const std::span<Json> buffers = elements(json, "buffers");
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     Json& buffer = buffers[i];
-    changed = plainDataUri(buffer, "buffer " + std::to_string(i)) || changed;
+    changed = plainDataUri(buffer, "buffer " + std::to_string(i)) || keepPlus(buffer) || changed;
     const Json& uri = member(buffer, "uri");
     if (uri.is_string() && !uri.get_ref<const std::string&>().starts_with("data:")) {
       const Json& length = member(buffer, "byteLength");

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@ namespace walr::render::gltf {
 
 inline constexpr const char* kSpecularGlossinessExtension = "KHR_materials_pbrSpecularGlossiness";
 
+/// The node of an animation channel that has none, see `prepareJson`.
+inline constexpr int kNoNode = std::numeric_limits<int>::min();
+
 /// Whether the loader renders what an extension says, so that a file may require it.
 bool isSupported(const std::string& extension);
 
@@ -20,8 +24,8 @@ bool isSupported(const std::string& extension);
 /// no file.
 /// @param hasChunk  the text is that of a GLB file with a binary chunk
 /// @param fileLengths  takes the bytes that are used of each buffer that is a file, in their order
-/// @returns another text for the parser if it would refuse this one although it is valid; `restoreAbsentViews` undoes
-/// it
+/// @returns another text for the parser if it would refuse this one although it is valid, or misread it;
+/// `restoreAbsentViews` undoes what concerns views
 /// @throws SceneError
 std::optional<std::string> prepareJson(std::string_view text, bool hasChunk, std::deque<std::size_t>& fileLengths);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <glm/common.hpp>
 
@@ -156,23 +157,42 @@ std::vector<double> numbersOf(const tinygltf::Value& object, const char* key, st
   return byDefault;
 }
 
-// The diffuse lobe of KHR_materials_pbrSpecularGlossiness as base colour. A texture of specular colours is left out.
-tinygltf::PbrMetallicRoughness diffuseOf(const tinygltf::Value& source) {
+// A material of KHR_materials_pbrSpecularGlossiness as far as metallic and roughness can say it: its diffuse lobe and
+// its roughness, and the specular lobe of a metal, which has no diffuse one, or of a dielectric. Textures of specular
+// colours and glossiness are left out.
+// @param specularLost  becomes true if the specular lobe is another one
+tinygltf::PbrMetallicRoughness metallicRoughnessOf(const tinygltf::Value& source, bool& specularLost) {
   tinygltf::PbrMetallicRoughness pbr;
   pbr.metallicFactor = 0.0;
   pbr.baseColorTexture = textureOf(source, "diffuseTexture");
   pbr.baseColorFactor = numbersOf(source, "diffuseFactor", {1.0, 1.0, 1.0, 1.0});
   const std::vector<double> specular = numbersOf(source, "specularFactor", {1.0, 1.0, 1.0});
-  if (source.Has("specularGlossinessTexture")) return pbr;
+  if (source.Has("specularGlossinessTexture")) {
+    specularLost = true;
+    return pbr;
+  }
+  const double glossiness = source.Has("glossinessFactor") ? source.Get("glossinessFactor").GetNumberAsDouble() : 1.0;
+  pbr.roughnessFactor = 1.0 - glossiness;
   for (std::size_t c = 0; c < 3; ++c) pbr.baseColorFactor[c] *= 1.0 - *std::ranges::max_element(specular);
+  const std::span<const double> diffuse = std::span(pbr.baseColorFactor).first(3);
+  const bool black = std::ranges::all_of(diffuse, [](double c) { return c == 0.0; });
+  if (black && pbr.baseColorTexture.index < 0) {
+    pbr.metallicFactor = 1.0;
+    std::ranges::copy(specular, pbr.baseColorFactor.begin());
+    return pbr;
+  }
+  constexpr double kDielectric = 0.04;
+  constexpr double kAlike = 0.01;  // Files hold 0.04 as sRGB bytes or with two digits.
+  specularLost = std::ranges::any_of(specular, [](double c) { return std::abs(c - kDielectric) > kAlike; });
   return pbr;
 }
 
 Material convertMaterial(const tinygltf::Material& source, const std::string& name, const OptionalIndices& textures,
-                         Scene& scene) {
+                         Scene& scene, bool& specularLost) {
   const auto specular = source.extensions.find(kSpecularGlossinessExtension);
   const bool metallic = specular == source.extensions.end() || !specular->second.IsObject();
-  const tinygltf::PbrMetallicRoughness pbr = metallic ? source.pbrMetallicRoughness : diffuseOf(specular->second);
+  const tinygltf::PbrMetallicRoughness pbr =
+      metallic ? source.pbrMetallicRoughness : metallicRoughnessOf(specular->second, specularLost);
   if (pbr.baseColorFactor.size() != 4) {
     throw SceneError(name + " baseColorFactor: must have four numbers");
   }
@@ -195,6 +215,11 @@ Material convertMaterial(const tinygltf::Material& source, const std::string& na
   material.baseColorTexture = finder.find(pbr.baseColorTexture, metallic ? "baseColorTexture" : "diffuseTexture");
   material.metallicRoughnessTexture = finder.find(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
   material.emissiveTexture = finder.find(source.emissiveTexture, "emissiveTexture");
+  if (source.emissiveTexture.index >= 0 && !material.emissiveTexture && material.emits()) {
+    // The factor alone would make all of the object a lamp.
+    scene.warnings.push_back(name + ": its emissive texture is missing; the material does not emit");
+    material.emission = glm::vec3(0.0F);
+  }
   material.normalTexture = finder.find(source.normalTexture, "normalTexture");
   if (source.alphaMode == "MASK") {
     material.alphaCutoff = static_cast<float>(source.alphaCutoff);
@@ -238,11 +263,23 @@ OptionalIndices convertTextures(const tinygltf::Model& model, Scene& scene) {
 }
 
 void convertMaterials(const tinygltf::Model& model, const OptionalIndices& textures, Scene& scene) {
+  std::size_t specularLost = 0;  // Materials whose specular lobe is another one.
+  std::string first;
   for (std::size_t i = 0; i < model.materials.size(); ++i) {
     const tinygltf::Material& source = model.materials[i];
-    scene.materials.push_back(convertMaterial(source, partName("material", i, source.name), textures, scene));
+    bool lost = false;
+    const std::string name = partName("material", i, source.name);
+    scene.materials.push_back(convertMaterial(source, name, textures, scene, lost));
+    if (!lost) continue;
+    ++specularLost;
+    if (first.empty()) first = name;
   }
-  Material byDefault;
+  if (specularLost > 0) {
+    scene.warnings.push_back(
+        first + (specularLost > 1 ? " and " + std::to_string(specularLost - 1) + " more" : "") +
+        ": specular colours and glossiness textures are not read; with --specular they reflect as dielectrics");
+  }
+  Material byDefault;  // White, rough, and no metal, see `prepareJson`.
   byDefault.name = "default";
   scene.materials.push_back(byDefault);
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -164,6 +163,11 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   for (const TextureCoordinates& coordinates : material.coordinates) {
     readTextureCoordinates(model, primitive, coordinates, mesh, scene);
   }
+  if (const std::optional<int> color = findAttribute(primitive, "COLOR_0")) {
+    checkCount(model, *color, mesh, name + " COLOR_0");
+    mesh.colors = readColors(model, *color, name + " COLOR_0", scene);
+  }
+  // Last, because it may add vertices.
   if (material.normalTexture && !mesh.normals.empty()) {
     if (const std::optional<int> tangent = findAttribute(primitive, "TANGENT")) {
       checkCount(model, *tangent, mesh, name + " TANGENT");
@@ -171,15 +175,10 @@ Mesh convertPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p
       mesh.tangents = readVec4s(model, *tangent, name + " TANGENT", &flawed);
       warnOfFlaws(flawed, name + " TANGENT", scene);
     } else {
-      const std::size_t first = scene.textures[*material.normalTexture].coordinates * mesh.positions.size();
-      mesh.tangents = deriveTangents(mesh, std::span(mesh.uvs).subspan(first, mesh.positions.size()));
+      deriveTangents(mesh, scene.textures[*material.normalTexture].coordinates);
     }
   } else if (material.normalTexture) {
     scene.warnings.push_back(name + ": a normal map needs NORMAL; it is not used");
-  }
-  if (const std::optional<int> color = findAttribute(primitive, "COLOR_0")) {
-    checkCount(model, *color, mesh, name + " COLOR_0");
-    mesh.colors = readColors(model, *color, name + " COLOR_0", scene);
   }
   if (!primitive.targets.empty()) {
     scene.warnings.push_back(name + ": morph targets are ignored");

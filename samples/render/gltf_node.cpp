@@ -50,6 +50,10 @@ Transform readTransform(const tinygltf::Node& source, const std::string& name) {
   return transform;
 }
 
+// Of a projection without a far plane that is beyond the farthest one otherwise.
+constexpr float kFarOfNear = 1000.0F;
+constexpr float kLargestNear = 1e30F;
+
 void convertCameras(const tinygltf::Model& model, Scene& scene) {
   for (std::size_t i = 0; i < model.cameras.size(); ++i) {
     const tinygltf::Camera& source = model.cameras[i];
@@ -59,12 +63,14 @@ void convertCameras(const tinygltf::Model& model, Scene& scene) {
     if (source.type == "perspective") {
       camera.yfov = static_cast<float>(source.perspective.yfov);
       camera.znear = static_cast<float>(source.perspective.znear);
-      camera.zfar = source.perspective.zfar > 0.0 ? static_cast<float>(source.perspective.zfar) : camera.zfar;
+      const bool infinite = !(source.perspective.zfar > 0.0);
+      if (!infinite) camera.zfar = static_cast<float>(source.perspective.zfar);
+      if (infinite && camera.znear >= camera.zfar) camera.zfar = kFarOfNear * camera.znear;
       if (!(camera.yfov > 0.0F && camera.yfov < std::numbers::pi_v<float>)) {
         throw SceneError(name + ": its vertical field of view must lie between 0 and pi");
       }
-      if (!(camera.znear > 0.0F && camera.zfar > camera.znear)) {
-        throw SceneError(name + ": must have 0 < znear < zfar");
+      if (!(camera.znear > 0.0F && camera.znear < kLargestNear && camera.zfar > camera.znear)) {
+        throw SceneError(name + (infinite ? ": must have 0 < znear < 1e30" : ": must have 0 < znear < zfar"));
       }
     } else {
       scene.warnings.push_back(name + ": only perspective cameras are supported; replaced by one with yfov 0.8");
@@ -134,7 +140,9 @@ Node convertNode(const tinygltf::Node& source, const std::string& name,
     node.light = optionalIndex(light, scene.lights.size(), name + " light");
   }
   if (source.skin >= 0) {
-    scene.warnings.push_back(name + ": skinning is not supported; the mesh is shown in its rest pose");
+    scene.warnings.push_back(
+        name +
+        ": skinning is not supported; joints are ignored, and the mesh is shown as it was modelled, where its node is");
   }
   return node;
 }

@@ -1,9 +1,15 @@
 #include "samples/render/load_scene.h"
 
+#include <algorithm>
 #include <optional>
+#include <sstream>
 #include <utility>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "samples/image/exr_names.h"
+#include "samples/render/animation.h"
 #include "samples/render/default_view.h"
 #include "samples/render/gltf_compression.h"
 #include "samples/render/gltf_convert.h"
@@ -12,6 +18,7 @@
 #include "samples/render/gltf_limits.h"
 #include "samples/render/load_sky.h"
 #include "samples/render/scene_error.h"
+#include "samples/render/surface.h"
 #include "samples/render/view.h"
 
 namespace walr::render {
@@ -55,6 +62,21 @@ void completeScene(Scene& scene) {
   }
 }
 
+// Rays start beside surfaces, farther off the larger coordinates are. A pixel of a picture of all of the scene is about
+// a thousandth of it.
+void warnOfDistance(Scene& scene) {
+  constexpr float kVisible = 1e-3F;
+  const Box box = boundingBox(scene, worldTransforms(scene, 0.0));
+  const glm::vec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
+  const float offset = kRelativeRayOffset * std::max({farthest.x, farthest.y, farthest.z});
+  if (offset > kVisible * glm::distance(box.low, box.high)) {
+    std::ostringstream text;
+    text << "the scene is far from the origin for its size: shadows and reflections may be " << offset
+         << " units off; move it there";
+    scene.warnings.push_back(text.str());
+  }
+}
+
 }  // namespace
 
 Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& sky, Fingerprint* contents) {
@@ -79,6 +101,7 @@ Scene loadScene(const std::filesystem::path& file, const std::filesystem::path& 
     gltf::convertNodes(model, gltf::convertMeshes(model, scene), scene);
     gltf::checkPlacedTriangles(scene);
     completeScene(scene);
+    warnOfDistance(scene);
     // They quote texts of the file, which must not command the terminal.
     for (std::string& warning : scene.warnings) warning = printable(warning);
     return scene;

@@ -152,20 +152,20 @@ double RenderOptions::referencePaths() const {
   return static_cast<double>(width) * height * referenceSamples / referenceCoverage.oneSquareIn;
 }
 
+std::size_t RenderOptions::references() const {
+  if (referenceSamples == 0) return 0;
+  const FrameRange named = referenceFrames.value_or(FrameRange{firstFrame, lastFrame});
+  const std::int64_t count = std::int64_t{std::min(named.last, lastFrame)} - std::max(named.first, firstFrame) + 1;
+  return static_cast<std::size_t>(std::max<std::int64_t>(count, 0));
+}
+
 double RenderOptions::paths() const {
-  double sum = 0.0;
-  for (int frame = firstFrame; frame <= lastFrame; ++frame) {
-    sum += noisyPaths() + (hasReference(frame) ? referencePaths() : 0.0);
-  }
-  return sum;
+  const double frames = static_cast<double>(lastFrame) - firstFrame + 1.0;
+  return frames * noisyPaths() + static_cast<double>(references()) * referencePaths();
 }
 
 std::size_t RenderOptions::files() const {
-  std::size_t count = 0;
-  for (int frame = firstFrame; frame <= lastFrame; ++frame) {
-    count += hasReference(frame) ? 2 : 1;
-  }
-  return count;
+  return static_cast<std::size_t>(std::int64_t{lastFrame} - firstFrame + 1) + references();
 }
 
 void renderSequence(const RenderOptions& options, const RenderObserver& observer) {

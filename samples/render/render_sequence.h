@@ -48,6 +48,8 @@ struct RenderOptions {
 
   /// Whether a frame gets a reference.
   [[nodiscard]] bool hasReference(int frame) const;
+  /// Number of frames that get a reference.
+  [[nodiscard]] std::size_t references() const;
   /// Number of files that are rendered.
   [[nodiscard]] std::size_t files() const;
   /// Paths to trace for a noisy frame, whose G-buffer counts as one per pixel; for a reference; and for all files.

@@ -115,9 +115,7 @@ Surface evaluateSurface(const Scene& scene, const Instance& instance, const Hit&
                                  ? glm::vec3(instance.previousWorldFromObject *
                                              glm::vec4(interpolate(mesh.positions, triangle, weights), 1.0F))
                                  : surface.position;
-  // 2^-18: 64 times the relative rounding error (2^-24) of the corners' coordinates.
-  constexpr float kRelativeOffset = 1.0F / 262144.0F;
-  surface.rayOffset = extent * kRelativeOffset;
+  surface.rayOffset = extent * kRelativeRayOffset;
 
   const float winding = instance.mirrored ? -1.0F : 1.0F;
   const glm::vec3 frontNormal = exact::frontNormal(corners[0], corners[1], corners[2], winding, -ray.direction);

@@ -11,6 +11,10 @@
 
 namespace walr::render {
 
+/// `Surface::rayOffset` relative to the largest coordinate of the triangle's corners: 2^-18, 64 times their relative
+/// rounding error (2^-24).
+inline constexpr float kRelativeRayOffset = 1.0F / 262144.0F;
+
 /// A surface point in world space, seen from one side.
 struct Surface {
   glm::vec3 position{0.0F};

@@ -51,9 +51,8 @@ std::uint32_t findCamera(const Scene& scene, const std::string& name) {
 }
 
 glm::mat4 viewFromNode(const glm::mat4& worldFromNode, const std::string& name) {
-  constexpr float kFarthest = 1e6F;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(worldFromNode[3][axis]) <= kFarthest)) {
+    if (!(std::abs(worldFromNode[3][axis]) <= kFarthestCamera)) {
       throw SceneError("camera node '" + name + "': its position is not finite or exceeds 1e6 scene units");
     }
   }

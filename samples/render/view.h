@@ -14,6 +14,9 @@
 
 namespace walr::render {
 
+/// A camera's coordinates reach to it, in scene units.
+inline constexpr float kFarthestCamera = 1e6F;
+
 /// A camera in one frame and in the frame before. Pixel positions: x right, y down, the centre of pixel (i, j) at
 /// (i + 0.5, j + 0.5). View space: right-handed, the camera looks down -Z.
 struct View {

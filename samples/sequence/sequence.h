@@ -13,6 +13,8 @@ namespace walr {
 
 /// A range of frame numbers, both ends included.
 struct FrameRange {
+  static constexpr int kMost = 999'999'999;  ///< Largest number of a frame; file names have up to nine digits.
+
   int first = 0;
   int last = 0;
 };

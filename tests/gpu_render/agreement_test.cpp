@@ -347,7 +347,7 @@ TEST_F(Agreements, OfSpecularLight) {
 TEST_F(Agreements, OfMotionBehindMirrors) {
   render::test::SceneBuilder builder;
   builder.sky({0.5F, 0.6F, 0.7F}).scene().specular = true;
-  const std::uint32_t mirror = builder.material({0.9F, 0.8F, 0.7F});
+  const std::uint32_t mirror = builder.material({0.9F, 0.8F, 0.7F}, {0.1F, 0.2F, 0.3F});
   const std::uint32_t wall = builder.material({0.5F, 0.4F, 0.3F});
   builder.scene().materials[mirror].metallic = 1.0F;
   builder.scene().materials[mirror].roughness = 0.0F;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -25,6 +26,7 @@ namespace {
 
 using Json = nlohmann::json;
 using test::GltfBuilder;
+namespace fs = std::filesystem;
 
 const std::vector<float> kFlawedTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -162,7 +164,8 @@ TEST_F(FlawedGltf, ReadsWhatTheSpecificationAllowsAndTheParserDoesNot) {
   std::ofstream(directory.path() / "built.bin", std::ios::binary | std::ios::app) << "more";
   const Scene scene = loadScene(file);
   EXPECT_EQ(scene.meshes.at(0).positions[1], glm::vec3(1, 0, 0));
-  fg::test::expectContains(scene.warnings.at(0), {"node 0: skinning is not supported"});
+  fg::test::expectContains(scene.warnings.at(0),
+                           {"node 0: skinning is not supported", "as it was modelled, where its node is"});
 }
 
 TEST_F(FlawedGltf, NamesABufferWithoutData) {
@@ -249,6 +252,138 @@ TEST_F(FlawedGltf, ReadsDiffuseColoursOfSpecularGlossiness) {
   builder.json["images"] = {{{"uri", "nowhere.png"}}};
   builder.material()["extensions"][name] = {{"diffuseTexture", {{"index", 7}}}};
   expectError({"material 0 diffuseTexture", "no texture 7"});
+}
+
+// Its roughness is 1 - glossiness. Without diffuse light it is a metal, and F0 of .04 is that of all dielectrics.
+TEST_F(FlawedGltf, ReadsTheSpecularLobeOfSpecularGlossinessAsFarAsItCan) {
+  const std::string name = "KHR_materials_pbrSpecularGlossiness";
+  builder.json["extensionsUsed"] = {name};
+  Json& material = builder.material()["extensions"][name];
+  material = {{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1.0, 0.75, 0.25}}, {"glossinessFactor", 0.75}};
+  Scene scene = load();
+  EXPECT_EQ(scene.warnings.size(), 1U) << testing::PrintToString(scene.warnings);  // Of the camera.
+  EXPECT_EQ(scene.materials[0].metallic, 1.0F);
+  EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(1.0F, 0.75F, 0.25F));
+  EXPECT_EQ(scene.materials[0].roughness, 0.25F);
+  material = {{"diffuseFactor", {0.5, 0.5, 0.5, 1}}, {"specularFactor", {0.04, 0.04, 0.04}}, {"glossinessFactor", 0.5}};
+  scene = load();
+  EXPECT_EQ(scene.warnings.size(), 1U) << testing::PrintToString(scene.warnings);
+  EXPECT_EQ(scene.materials[0].metallic, 0.0F);
+  EXPECT_EQ(scene.materials[0].roughness, 0.5F);
+  material["specularFactor"] = {0.5, 0.25, 0.25};
+  loadWithWarning({"material 0", "specular colours", "--specular"});
+  material = {{"specularFactor", {0, 0, 0}}, {"specularGlossinessTexture", {{"index", 0}}}};
+  EXPECT_EQ(loadWithWarning({"material 0", "glossiness textures"}).materials[0].roughness, 1.0F);
+}
+
+// 3.7.2.1 makes both a metal, which would be black without specular light.
+TEST_F(FlawedGltf, ObjectsWithoutAnyColourAreWhite) {
+  for (const bool named : {false, true}) {
+    if (named) {
+      builder.json["materials"] = {{{"name", "clay"}, {"doubleSided", true}}};
+    } else {
+      builder.primitive().erase("material");
+    }
+    const Scene scene = load();
+    const Material& material = scene.materials[scene.meshes.at(0).material];
+    EXPECT_EQ(material.baseColor, glm::vec3(1.0F)) << named;
+    EXPECT_EQ(material.metallic, 0.0F) << named;
+    EXPECT_EQ(material.roughness, 1.0F) << named;
+    builder.primitive()["material"] = 0;
+  }
+  builder.material() = {{"pbrMetallicRoughness", Json::object()}};
+  EXPECT_EQ(load().materials[0].metallic, 1.0F);
+}
+
+// The factor alone would make all of the object a lamp.
+TEST_F(FlawedGltf, AMaterialWithoutItsEmissiveTextureDoesNotEmit) {
+  builder.json["images"] = {{{"uri", "nowhere.png"}}};
+  builder.json["textures"] = {{{"source", 0}}};
+  builder.material() = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}};
+  const Scene scene = load();
+  EXPECT_FALSE(scene.materials[0].emits());
+  ASSERT_EQ(scene.warnings.size(), 3U) << testing::PrintToString(scene.warnings);
+  fg::test::expectContains(scene.warnings[0], {"nowhere.png", "not found"});
+  fg::test::expectContains(scene.warnings[1], {"material 0", "emissive texture is missing", "does not emit"});
+}
+
+// 5.5: a channel may have no node; 3.11: extensions may say what it animates.
+TEST_F(FlawedGltf, ChannelsWithoutANodeAreIgnored) {
+  for (const char* path : {"pointer", "translation"}) {
+    animate({0, 1});
+    builder.json["animations"][0]["channels"].push_back({{"sampler", 0}, {"target", {{"path", path}}}});
+    EXPECT_EQ(loadWithWarning({"animation 0 channel 1", path, "is ignored"}).animation.size(), 1U);
+  }
+  builder.json["animations"][0]["channels"][1]["target"]["node"] = -1;
+  builder.json["animations"][0]["channels"][1]["target"]["path"] = "scale";
+  expectError({"animation 0 channel 1", "there is no node -1"});
+}
+
+// Clips of a character, such as "walk" and "run", move the same nodes: one of them can be shown.
+TEST_F(FlawedGltf, ShowsTheFirstOfSeveralClips) {
+  animate({0, 1, 2});
+  Json clip = builder.json["animations"][0];
+  clip["name"] = "run";
+  animate({0, 1});
+  Json& animations = builder.json["animations"];
+  const Json walk = animations[0];
+  animations = Json::array({walk, clip, clip});
+  const Scene scene = loadWithWarning({"animation 1 'run', animation 2 'run': left out"});
+  ASSERT_EQ(scene.animation.size(), 1U);
+  EXPECT_EQ(scene.animation[0].times, (std::vector<float>{0, 1}));
+  for (int i = 0; i < 5; ++i) animations.push_back(clip);
+  loadWithWarning({"animation 5 'run' and 2 more: left out"});
+  animations = Json::array({walk, clip, clip});
+  // Of other nodes or other properties, they belong together.
+  animations[1]["channels"][0]["target"]["path"] = "scale";
+  EXPECT_EQ(loadWithWarning({"animation 2 'run'", "left out"}).animation.size(), 2U);
+}
+
+// RFC 3986: only a form has a plus for a space.
+TEST_F(FlawedGltf, APlusInTheNameOfAFileIsAPlus) {
+  const fs::path file = builder.write(directory.path());
+  fs::rename(directory.path() / "built.bin", directory.path() / "a+b.bin");
+  builder.json["buffers"][0]["uri"] = "a+b.bin";
+  for (const char* uri : {"a+b.bin", "a%2Bb.bin"}) {
+    builder.json["buffers"][0]["uri"] = uri;
+    std::ofstream(file) << builder.json.dump();
+    EXPECT_EQ(loadScene(file).meshes.at(0).positions[1], glm::vec3(1, 0, 0)) << uri;
+  }
+  // The image of the other name is no picture.
+  std::ofstream(directory.path() / "c d.png") << "nothing";
+  builder.json["images"] = {{{"uri", "c+d.png"}}};
+  std::ofstream(file) << builder.json.dump();
+  fg::test::expectContains(loadScene(file).warnings.at(0), {"image 0", "not found"});
+}
+
+// 3.10.3: without zfar, the projection has no far plane.
+TEST_F(FlawedGltf, ANearPlaneMayLieFarAway) {
+  builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 2000.0}}}}};
+  builder.json["nodes"][0]["camera"] = 0;
+  const Camera camera = load().cameras.at(0);
+  EXPECT_EQ(camera.znear, 2000.0F);
+  EXPECT_GT(camera.zfar, 100 * camera.znear);
+  Json& perspective = builder.json["cameras"][0]["perspective"];
+  perspective["znear"] = 0.0;
+  expectError({"camera 0", "0 < znear < 1e30"});
+  perspective["znear"] = 2.0;
+  perspective["zfar"] = 1.0;
+  expectError({"camera 0", "0 < znear < zfar"});
+}
+
+// Of a diagonal of 1.4, a thousandth is reached at 2^18 * .0014 = 371 units.
+TEST_F(FlawedGltf, SaysThatASceneIsFarFromTheOrigin) {
+  builder.json["nodes"][0]["translation"] = {0, -360, 0};
+  EXPECT_EQ(load().warnings.size(), 1U);
+  builder.json["nodes"][0]["translation"] = {0, -390, 0};
+  const Scene scene = load();
+  ASSERT_EQ(scene.warnings.size(), 2U) << testing::PrintToString(scene.warnings);
+  fg::test::expectContains(scene.warnings[1], {"far from the origin", "0.00148"});
+}
+
+TEST_F(FlawedGltf, SaysThatASceneIsTooLargeForACameraThatFramesIt) {
+  builder.json["nodes"][0]["scale"] = {9e5, 9e5, 9e5};
+  expectError({"has no camera", "frames all of it", "1e6"});
 }
 
 }  // namespace

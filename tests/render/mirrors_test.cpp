@@ -132,7 +132,7 @@ TEST(Mirrors, ShowEachOther) {
 // Only smooth metals are replaced. What they show is as dark as they reflect.
 TEST(MirrorsInFilms, AreReplacedBelowTheirRoughness) {
   for (const auto& [metallic, roughness, replaced] :
-       {std::tuple(1.0F, 0.149F, true), std::tuple(1.0F, 0.151F, false), std::tuple(0.4F, 0.0F, false)}) {
+       {std::tuple(1.0F, 0.149F, true), std::tuple(1.0F, 0.151F, false), std::tuple(0.9F, 0.0F, false)}) {
     SceneBuilder builder;
     const std::uint32_t mirror = metal(builder, glm::vec3(0.5F), roughness);
     builder.scene().materials[mirror].metallic = metallic;
@@ -153,6 +153,27 @@ TEST(MirrorsInFilms, AreReplacedBelowTheirRoughness) {
     EXPECT_NEAR(film.specular[0].albedo.x, tint * 0.02, 1e-6);                // A rough dielectric's is the least.
     EXPECT_NEAR(film.gbuffer[0].position.z, -3.0F * std::sqrt(2.0F), 1e-4F);  // 2 down, and 1 to the wall.
   }
+}
+
+// What a mirror emits is added to what it shows, as dark as the mirrors before it reflect.
+TEST(Mirrors, KeepTheirOwnEmission) {
+  SceneBuilder builder;
+  const glm::vec3 glow(0.25F, 0.5F, 1.0F);
+  const std::uint32_t dim = metal(builder, glm::vec3(0.5F), 0.0F);
+  builder.scene().materials[dim].emission = glow;
+  builder.quad(dim, {-9.0F, 0.0F, 9.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -18.0F});
+  const std::uint32_t wall = metal(builder, glm::vec3(1.0F), 0.0F);
+  builder.scene().materials[wall].emission = glow;
+  builder.quad(wall, {-9.0F, 0.0F, -4.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 9.0F, 0.0F});
+  builder.sky(glm::vec3(2.0F));
+  const std::uint32_t camera = builder.camera({0.0F, 2.0F, -1.0F}, {0.0F, 0.0F, -3.0F});  // At 45 degrees.
+  const World world(builder.scene());
+  const View view = viewFrom(world, camera, 1, 1, glm::vec2(0.0F), glm::vec2(0.0F));
+  EXPECT_EQ(tracePrimary(world, view, 0, 0, GBufferMode::FirstHit).pixel.emission, glow);
+  // The floor shows the wall, which shows the sky.
+  const glm::vec3 emission = tracePrimary(world, view, 0, 0, GBufferMode::BehindMirrors).pixel.emission;
+  const auto tint = static_cast<float>(test::schlick(0.5, std::sqrt(0.5)));
+  EXPECT_LT(glm::distance(emission, glow + tint * (glow + 2.0F)), 1e-5F);  // Some roundings of values up to 3.
 }
 
 // A mirror shows a smooth wall, which reflects a moving ceiling. In the virtual image, up is down.

@@ -118,6 +118,8 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene, "--record", output.string() + "/host.gif"}, ".webp");
   expectUsage({scene, "-o", output.string(), "--exposure", "bright"}, "--exposure bright");
   expectUsage({scene}, "--output");
+  expectUsage({scene, "--record", output.string() + "/host.webp", "--exr"}, "--exr: EXR files are written to a folder");
+  expectUsage({scene, "-o", output.string(), "--frames", "0-1000000000"}, "up to nine digits");
   expectUsage({scene, "-o", output.string(), "--target-ms", "16"}, "--target-ms");
   expectUsage({scene, "-o", output.string(), "--frames", "3-1"}, "--frames 3-1");
   expectUsage({scene, "-o", output.string(), "--set", "nothing=1"}, "nothing");

@@ -1,5 +1,6 @@
 // The sample host's tracer on the processor. No device is needed.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "samples/render/render_sequence.h"
 #include "samples/render/view.h"
 #include "samples/sequence/sequence.h"
+#include "tests/render/gltf_builder.h"
 #include "tests/samples/host_tracing.h"
 #include "tests/samples/temporary_directory.h"
 
@@ -119,8 +121,26 @@ TEST(Tracer, FollowsTheFrameBefore) {
   const Frame cut = tracer.trace({.number = 14, .animationFrame = 14.0, .view = glm::mat4(1.0F), .cut = true});
   EXPECT_TRUE(cut.resetHistory);
   EXPECT_EQ(cut.camera.view, glm::mat4(1.0F));
-  EXPECT_NEAR(tracer.lastAnimationFrame(), 47.0, 1e-4);
+  EXPECT_EQ(tracer.lastAnimationFrame(), 47);
   EXPECT_GT(tracer.bounds().w, 2.0F);
+}
+
+// As a float, the time of frame 95 is a little before that frame.
+TEST(Tracer, RoundsTheLastFrameOfAnAnimation) {
+  const test::TemporaryDirectory folder;
+  render::test::GltfBuilder builder;
+  builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const auto end = static_cast<float>(95.0 / 24.0);
+  const std::size_t input = builder.accessor<float>(render::test::GltfBuilder::Float, "SCALAR", {0, end});
+  const std::size_t output = builder.accessor<float>(render::test::GltfBuilder::Float, "VEC3", {0, 0, 0, 0, 0, 1});
+  builder.json["animations"] = {{{"samplers", {{{"input", input}, {"output", output}}}},
+                                 {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+  Tracer::Options options = tracing();
+  options.scene = builder.write(folder.path());
+  EXPECT_LT(double{end} * options.framesPerSecond, 95.0);
+  EXPECT_EQ(Tracer(options).lastAnimationFrame(), 95);
+  options.framesPerSecond = 1e6;  // An end that is not close to a frame of the slower clock.
+  EXPECT_EQ(Tracer(options).lastAnimationFrame(), std::lround(double{end} * 1e6));
 }
 
 // The camera moves from frame 4 on.

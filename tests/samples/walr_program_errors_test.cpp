@@ -143,6 +143,23 @@ TEST_F(ProgramTest, AFullStandardOutputIsSaid) {
   }
 }
 
+TEST_F(ProgramTest, ReferencesThatNoFrameWouldGetAreRefused) {
+  const auto expectUsage = [&](std::vector<std::string> more, std::initializer_list<std::string_view> parts) {
+    std::vector<std::string> all = {
+        "render", std::string(WALR_SCENES) + "/box.gltf", "--output", output.string(), "--size", "16x9"};
+    all.insert(all.end(), more.begin(), more.end());
+    test::expectFailure(walr(all), kUsage, parts);
+    EXPECT_FALSE(fs::exists(output));
+  };
+  expectUsage({"--reference-frames", "5-6"}, {"--reference-frames", "--reference-spp"});
+  expectUsage({"--reference-pixel", "area"}, {"--reference-pixel", "--reference-spp"});
+  expectUsage({"--reference-one-square-in", "4"}, {"--reference-one-square-in", "--reference-spp"});
+  expectUsage({"--frames", "0-4", "--reference-spp", "2", "--reference-frames", "5-6"},
+              {"--reference-frames 5-6", "--frames 0-4"});
+  // A loop over all frames would never end.
+  expectUsage({"--frames", "2147483647-2147483647"}, {"--frames 2147483647-2147483647", "nine digits"});
+}
+
 TEST_F(ProgramTest, SettingsAtOddsAreAnErrorOfTheCommandLine) {
   expectFailure(walr({"graph", "--set", "accumulation.antilag-high=0"}), kUsage, {"--method walr", "antilag"});
 }

@@ -80,11 +80,14 @@ vec4 representable(vec4 value) {
 #ifdef SPECULAR
 mat4 imageFromWorld = mat4(1.0);
 vec3 tint = vec3(1.0);
+vec3 mirrorEmission = vec3(0.0);  // Radiance that the mirrors emit themselves.
 #define VIRTUAL(matrix) ((matrix) * imageFromWorld)
 #define TINTED(light) ((light) * tint)
+#define EMITTED(light) (mirrorEmission + (light) * tint)
 #else
 #define VIRTUAL(matrix) (matrix)
 #define TINTED(light) (light)
+#define EMITTED(light) (light)
 #endif
 
 void writeSurface(ivec2 p, Surface surface, uint objectId) {
@@ -97,7 +100,7 @@ void writeSurface(ivec2 p, Surface surface, uint objectId) {
 #endif
   imageStore(outNormal, p, representable(vec4(mat3(VIRTUAL(trace.viewFromWorld)) * surface.shadingNormal, roughness)));
   imageStore(outAlbedo, p, representable(vec4(TINTED(surface.albedo), 0.0)));
-  imageStore(outEmission, p, representable(vec4(TINTED(surface.emission), 0.0)));
+  imageStore(outEmission, p, representable(vec4(EMITTED(surface.emission), 0.0)));
   imageStore(outMotion, p, representable(vec4(imageMotion(p, previous), position.z - previous.z, 0.0)));
   imageStore(outDepth, p, vec4(-position.z));
   imageStore(outObjectId, p, uvec4(objectId));
@@ -107,7 +110,7 @@ void writeSky(ivec2 p, vec3 direction, vec3 radiance) {
   const vec3 previousDirection = mat3(VIRTUAL(trace.previousViewFromWorld)) * direction;
   imageStore(outNormal, p, vec4(0.0));
   imageStore(outAlbedo, p, vec4(0.0));
-  imageStore(outEmission, p, representable(vec4(TINTED(radiance), 0.0)));
+  imageStore(outEmission, p, representable(vec4(EMITTED(radiance), 0.0)));
   imageStore(outMotion, p, representable(vec4(imageMotion(p, previousDirection), 0.0, 0.0)));
   imageStore(outDepth, p, vec4(kBackgroundDepth));
   imageStore(outObjectId, p, uvec4(kAbsent));
@@ -238,6 +241,7 @@ void main() {
         if (met && (trace.flags & kBehindMirrors) != 0u && isMirror(next.metallic, next.roughness) && mirrors < kMostMirrors) {
           const vec3 direction = mirrorDirection(next.shadingNormal, next.towardsViewer);
           const float away = grazing(dot(next.shadingNormal, next.towardsViewer));
+          mirrorEmission += found * tint;
           tint *= dot(next.geometricNormal, direction) > 0.0 ? mix(next.reflectance, vec3(1.0), away) : vec3(0.0);
           imageFromWorld = imageFromWorld * reflectionAt(next.shadingNormal, next.position);
           ray = Ray(rayOrigin(next), direction, kEndless, false);

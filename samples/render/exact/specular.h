@@ -17,11 +17,13 @@ WALR_EXACT float alphaOf(float roughness) {
   return max(roughness * roughness, 1e-4f);
 }
 
-// A metal of less linear roughness is a mirror whose picture is that of another surface.
+// A metal of less linear roughness is a mirror whose picture is that of another surface. Its own diffuse light, the
+// rest to a metallic of 1, is not in that picture and gets lost, so that there may only be little of it.
 WALR_EXACT_CONSTANT float kMirrorRoughness = 0.15f;
+WALR_EXACT_CONSTANT float kMirrorMetallic = 0.95f;
 
 WALR_EXACT bool isMirror(float metallic, float roughness) {
-  return metallic >= 0.5f && roughness < kMirrorRoughness;
+  return metallic >= kMirrorMetallic && roughness < kMirrorRoughness;
 }
 
 // A pixel is followed through at most this many mirrors.
