@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
+#include <set>
 #include <span>
+#include <string>
 #include <utility>
 
 #include <glm/gtc/type_ptr.hpp>

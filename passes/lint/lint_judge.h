@@ -35,6 +35,7 @@ class LintJudge {
 
   // lint_specular.cpp; they find nothing without the counts of `addLintSpecular`.
   void judgeSpecularValues();
+  void judgeSpecularPresence();
   void judgeLobes();
   void judgeReflectedDistance();
   void judgeReflectedMotion();

@@ -52,6 +52,28 @@ void LintJudge::judgeSpecularValues() {
         "write 1e10 where the reflected ray met nothing, and 0 where there was no sample");
   count(kSpecularRoughnessOutside, "roughness-range", "roughness is not from 0 to 1 on ",
         "glossiness in percent, or an exponent", "write linear roughness as in glTF, 0 to 1");
+  judgeSpecularPresence();
+}
+
+void LintJudge::judgeSpecularPresence() {
+  const std::uint64_t surfaces = counts_[kLintSpecularSurfaces];
+  if (surfaces < kLeastLintSample) return;
+  const bool sampled = counts_[kLintSpecularSampled] > 0;
+  if (!sampled && !has("lighting-empty")) {
+    add({"specular-empty", "no pixel with a surface has a distance to what it reflects above 0",
+         "the alpha of specular light was not written",
+         "write the distance from the surface to what it reflects, 1e10 where the reflected ray met nothing"});
+  }
+  if (sampled && counts_[kLintSpecularLit] == 0 && !has("lighting-zero")) {
+    add({"specular-zero", "specular light is 0 on all " + std::to_string(surfaces) + " pixels with a surface",
+         "its image was not written, or is another one",
+         "write the light before the denoiser runs, or leave specular light out where a scene has none"});
+  }
+  if (counts_[kLintSpecularAlbedo] == 0 && !has("albedo-empty")) {
+    add({"specular-albedo-empty", "the specular albedo is 0 on all pixels with a surface",
+         "its image was not written, or is another one",
+         "write walrSpecularAlbedo: without it, a pixel passes through with its noise"});
+  }
 }
 
 void LintJudge::judgeLobes() {

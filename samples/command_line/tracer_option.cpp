@@ -1,5 +1,10 @@
 #include "samples/command_line/tracer_option.h"
 
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "framegraph/vulkan/error.h"
 #include "samples/command_line/choice.h"
 

@@ -78,7 +78,12 @@ const uint kFromEyeInAir = 70;
 const uint kReflectedMotions = 71;
 const uint kReflectedMotionCount = 4;
 
-const uint kLintCountWords = 75;
+const uint kLintSpecularSurfaces = 75;  // Surfaces where specular light is looked at, and those of them that have each of these.
+const uint kLintSpecularSampled = 76;   // A distance.
+const uint kLintSpecularLit = 77;
+const uint kLintSpecularAlbedo = 78;
+
+const uint kLintCountWords = 79;
 
 // Samples: a pixel of each cell of a grid over the image, another one in each frame.
 const uint kLintFirstSample = 256;

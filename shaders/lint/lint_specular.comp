@@ -73,6 +73,10 @@ void countValues(Pixel at) {
   count(kSpecularNegative, any(lessThan(at.light.radiance, vec3(0.0))));
   count(kSpecularDistanceNegative, at.distance < 0.0);
   count(kSpecularRoughnessOutside, at.roughness < 0.0 || at.roughness > 1.0);
+  count(kLintSpecularSurfaces, true);
+  count(kLintSpecularSampled, !kDistance || at.distance > 0.0);
+  count(kLintSpecularLit, largest(at.light.radiance) > 0.0);
+  count(kLintSpecularAlbedo, largest(at.albedo) > 0.0);
 }
 
 void countPair(Pixel here, ivec2 q) {

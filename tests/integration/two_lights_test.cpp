@@ -312,6 +312,42 @@ TEST_F(TwoLights, AreSwappedAndTheLinterSaysSo) {
   }
 }
 
+TEST_F(TwoLights, LackTheSecondAndTheLinterSaysSo) {
+  WalrDenoiserInfo both = ofLights(info("accumulate", kSize), WALR_LIGHT_DIFFUSE, WALR_LIGHT_SPECULAR);
+  both.lint = VK_TRUE;
+  struct Lack {
+    const char* finding;
+    std::string_view image;
+    std::size_t first;  ///< Of the four channels that are 0.
+    std::size_t last;
+  };
+  constexpr std::array kFindings{"specular-empty", "specular-zero", "specular-albedo-empty"};
+  for (const Lack& lack :
+       {Lack{"specular-empty", "second_lighting", 3, 3}, Lack{"specular-zero", "second_lighting", 0, 2},
+        Lack{"specular-albedo-empty", "specular_albedo", 0, 3}, Lack{"", "", 0, 0}}) {
+    SCOPED_TRACE(lack.finding);
+    Opaque run(host, api(), both);
+    for (const NeededImage& image : run.needed()) {
+      if (image.written()) continue;
+      const bool second = image.name.starts_with("second_");
+      std::vector<float> values = inputOf(image.name.substr(second ? 7 : 0), 0, second);
+      for (std::size_t i = 0; image.name == lack.image && i < values.size(); ++i) {
+        if (i % 4 >= lack.first && i % 4 <= lack.last) values[i] = 0.0F;
+      }
+      host_upload(&host, &run.image(image.name), values.data());
+    }
+    for (std::uint32_t number = 0; number < kFrames; ++number) run.frame(cameraAt({}), 0);
+    std::array<WalrFinding, 16> findings{};
+    std::uint32_t count = findings.size();
+    require(api().get_findings(run.denoiser(), &count, findings.data()));
+    for (const std::string_view name : kFindings) {
+      const bool found = std::any_of(findings.begin(), findings.begin() + count,
+                                     [&](const WalrFinding& finding) { return finding.name == name; });
+      EXPECT_EQ(found, name == lack.finding) << name;
+    }
+  }
+}
+
 /// The memory that denoisers allocate.
 std::uint64_t allocated(const WalrApi& api, const WalrDenoiserInfo& info) {
   WalrMemory memory{};

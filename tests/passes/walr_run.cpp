@@ -102,7 +102,8 @@ void WalrRun::inspectStages(fg::Graph& graph) {
   }
   const fg::Texture geometricNormal = findGuide(graph, "guides.geometric normal");
   if (geometricNormal.valid()) geometricNormal_ = tap(graph, geometricNormal);
-  accumulated_ = tap(graph, textureNamed(graph, "accumulated.current"));
+  const fg::Texture onGrid = findTexture(graph, "accumulated on the light grid.current");
+  accumulated_ = tap(graph, onGrid.valid() ? onGrid : textureNamed(graph, "accumulated.current"));
   if (settings_.accumulation().antilag.enabled) {
     antilagTiles_ = tap(graph, textureNamed(graph, "antilag.tiles"));
     antilag_ = tap(graph, textureNamed(graph, "antilag.factor.current"));

@@ -141,7 +141,8 @@ Image<SvgfMoments> svgfAccumulate(const HostFrame& frame, const Image<Guide>& gu
     SvgfMoments& out = result[p];
     const glm::dvec3 noisy = frame.lighting[p];
     if (guides[p].depth == 0.0) {
-      out.colour = isFinite(noisy) ? noisy : glm::dvec3(0.0);
+      const bool sampled = !reflection || frame.lightAlpha[p] > 0.0;
+      out.colour = sampled && isFinite(noisy) ? noisy : glm::dvec3(0.0);
       return;
     }
     if (!history.guides.pixels().empty()) {
