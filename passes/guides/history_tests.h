@@ -27,12 +27,11 @@ struct HistoryThresholds {
 inline constexpr HistoryThresholds kStrictThresholds{.planeTolerance = 0.005F, .normalThreshold = 0.9F};
 
 /// Visit the setting that chooses how a stage tests its history pixels.
-inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection,
-                           LightKinds lights = {}) {
+inline void visitRejection(SettingVisitor& v, std::string_view name, HistoryRejection& rejection) {
   static constexpr std::string_view kRejections[] = {"plane", "depth", "none"};
-  v.visitEnum({name, "Test whether a history pixel shows the same surface", "", 0, 1,
-               "Meunier & Harada 2022, 4.2 and 4.4", lights},
-              kRejections, rejection);
+  v.visitEnum(
+      {name, "Test whether a history pixel shows the same surface", "", 0, 1, "Meunier & Harada 2022, 4.2 and 4.4"},
+      kRejections, rejection);
 }
 
 /// Visit the thresholds under the names that a stage gives them.

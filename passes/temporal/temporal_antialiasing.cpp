@@ -57,6 +57,8 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
   const fg::Extent extent = graph->textureDesc(filtered).extent;
   const fg::History resolved = graph->history("resolved", {formatOf(settings.storage), extent});
   const bool packed = settings.storage == LightStorage::Packed;
+  const HistoryThresholds thresholds =
+      kept ? HistoryThresholds{} : settings.thresholds;  // Kept taps are tested already.
   const auto declare = [&](const std::string& name, bool view) {
     fg::PassBuilder pass =
         graph->compute(name, view ? shaders::temporalAntialiasingView({.kept = kept, .packed = packed})
@@ -66,9 +68,9 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
     pass.sample("filtered", filtered)
         .sample("previousResolved", resolved.previous)
         .specialize("kClipRadius", settings.clipRadius)
-        .constants(TemporalAntialiasingConstants{
-            settings.maxHistory, settings.clipGamma, settings.edgeClipGamma, settings.filterRadius,
-            settings.historySharpness, settings.thresholds.planeTolerance, settings.thresholds.normalThreshold})
+        .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.edgeClipGamma,
+                                                 settings.filterRadius, settings.historySharpness,
+                                                 thresholds.planeTolerance, thresholds.normalThreshold})
         .dispatch(extent);
     if (packed) pass.specialize("kBeyondLevels", settings.maxHistory > kHighestLevel);
     return pass;

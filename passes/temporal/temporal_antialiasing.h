@@ -63,7 +63,7 @@ struct TemporalAntialiasingSettings {
     v.visit({"antialiasing.clip-radius", "Radius of the neighbourhood for variance clipping; 1 is 3x3", "pixels", 1, 8,
              "Meunier & Harada 2022, 4.4"},
             clipRadius);
-    visitRejection(v, "antialiasing.rejection", rejection, kDiffuseLight);
+    visitRejection(v, "antialiasing.rejection", rejection);
     v.visit({"antialiasing.dilate-motion", "Follow the nearest surface of the 3x3 neighbourhood", "", 0, 1,
              "Meunier & Harada 2022, 4.2"},
             dilateMotion);

@@ -69,6 +69,7 @@ static void test_images(Host* host, const WalrDevice* device) {
   EXPECT(walr_get_findings(denoiser, &count, NULL), WALR_ERROR_WRONG_ORDER, "WalrDenoiserInfo::lint");
 
   EXPECT_OK(walr_resize(denoiser, kWidth / 2, kHeight));
+  EXPECT_OK(walr_prepare(denoiser));
   const VkCommandBuffer again = host_begin(host);
   EXPECT(walr_record(denoiser, again, &good), WALR_ERROR_INVALID_ARGUMENT, "call walr_resize");
   EXPECT_OK(walr_resize(denoiser, kWidth, kHeight));
