@@ -50,12 +50,12 @@ class VerifyDamage : public ::testing::Test {
     std::function<void(Plan&)> apply;
   };
   void expectFaults(const std::vector<Damage>& damages) const {
-    for (const auto& [fault, apply] : damages) {
+    for (const Damage& damage : damages) {
       Plan plan = plan_;
-      apply(plan);
+      damage.apply(plan);
       const std::vector<std::string> found = verify(graph_.desc(), plan);
-      EXPECT_TRUE(std::ranges::any_of(found, [&](const std::string& text) { return text.ends_with(fault); }))
-          << "wanted: " << fault << "\ngot " << found.size() << (found.empty() ? "" : ": " + found.front());
+      EXPECT_TRUE(std::ranges::any_of(found, [&](const std::string& text) { return text.ends_with(damage.fault); }))
+          << "wanted: " << damage.fault << "\ngot " << found.size() << (found.empty() ? "" : ": " + found.front());
     }
   }
 
