@@ -353,8 +353,8 @@ WALR_API WalrResult walr_destroy_denoiser(WalrDenoiser denoiser);
  *   pipeline is created only if a shader must be specialized for a value that it has not had yet.
  * - A setting that changes passes or textures creates new images and memory, and pipelines for new passes only. A
  *   history keeps its contents and length if the new passes have one of the same name and format. All others restart.
- * - A new size creates new images and memory, and a pipeline only where a shader is specialized by it. The history is kept if WalrConventions::rectangle is
- *   set, and dropped otherwise.
+ * - A new size creates new images and memory, and a pipeline only where a shader is specialized by it. The
+ *   history is kept if WalrConventions::rectangle is set, and dropped otherwise.
  */
 WALR_API WalrResult walr_resize(WalrDenoiser denoiser, uint32_t width, uint32_t height);
 /* With two lights: sets both, or the second alone: "second.blocks.residual". Refused if it acts on none of them. */
@@ -573,7 +573,7 @@ typedef struct WalrView {
   const char* description; /* One line: what red, green and blue hold. */
 } WalrView;
 
-/* The views that the methods of all lights have with their current settings. The texts are valid while the library is loaded.
+/* The views that all lights have with their current settings. The texts are valid while the library is loaded.
  * count: in: room at `views`; out: number of views. `views` may be null. */
 WALR_API WalrResult walr_get_views(WalrDenoiser denoiser, uint32_t* count, WalrView* views);
 
