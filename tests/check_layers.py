@@ -43,7 +43,7 @@ ALLOWED = {
        | {f"{top}/{other}" for other in others for top in ("passes", "shaders")}
        for room, others in ROOMS.items()},
     "integration": {"framegraph", "passes", "shaders"},
-    **{f"samples/{name}": {"framegraph", "passes", "shaders", "integration", "samples/errors.h"}
+    **{f"samples/{name}": {"framegraph", "passes", "shaders", "integration", "samples/errors.h", "samples/json_text.h"}
        | {f"samples/{other}" for other in others}
        for name, others in {
            "image": (),

@@ -46,9 +46,9 @@ std::vector<PhysicalDevice> physicalDevices(const Instance& instance);
 std::string listing(const std::vector<PhysicalDevice>& devices);
 
 /// Choose a device.
-/// @param choice an index or a part of a name, ignoring case; a number that is no index is a part of a name. If empty,
-/// the best device is chosen: discrete before
-///        integrated before virtual before software; the first among equals
+/// @param choice an index or a part of a name, ignoring case; a number that is no index is a part of a name.
+///        If empty, the best device is chosen: discrete before integrated before virtual before software; the first
+///        among equals
 /// @throws Unsupported with a message that names the choice and the available devices
 const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, std::string_view choice);
 

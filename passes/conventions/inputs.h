@@ -49,8 +49,8 @@ struct DenoiserInputs {
   fg::Texture albedo;    ///< RGBA16F: diffuse albedo; where all channels are below `guides.albedo-threshold`,
                          ///< a pixel has no diffuse lobe.
   /// R32_UINT, or another format of unsigned integers: id of the object that the pixel shows, constant from frame to
-  /// frame; 0xffffffff: none. `joint_bilateral` rejects history of other
-  /// objects by it, and anti-aliasing with `antialiasing.object-ids`.
+  /// frame; 0xffffffff: none. `joint_bilateral` rejects history of other objects by it,
+  /// and so does anti-aliasing with `antialiasing.object-ids`.
   fg::Texture objectId = {};
   /// R8_UNORM, or another format of floats: how much of its history a pixel may use, 0 to 1. If present, it scales the
   /// longest history of light; NaN counts as 1.

@@ -1,8 +1,7 @@
 #include "passes/methods/svgf.h"
 
-#include <stdexcept>
-
 #include "passes/stage/pass_through.h"
+#include "passes/temporal/temporal_stages.h"
 
 namespace walr {
 namespace {
@@ -34,9 +33,7 @@ SvgfSettings paperSvgf() {
 
 fg::Texture addSvgf(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output, const SvgfSettings& settings) {
   const bool specular = inputs.conventions.specular;
-  if (specular && settings.spatialOnly) {
-    throw std::invalid_argument("setting spatial-only is for diffuse light: specular light is accumulated first");
-  }
+  if (settings.spatialOnly) requireSpatialLight(inputs);
   const Guides guides =
       addPrepareGuides(graph, inputs, settings.guides,
                        {.history = !settings.spatialOnly, .normalHistory = !inputs.conventions.specular});

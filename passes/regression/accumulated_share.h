@@ -36,14 +36,12 @@ struct AccumulatedShareSettings {
             gain);
     v.visit({"blocks.innovation-gain",
              "With antilag: how fast the history length follows the correlation of innovations, the differences of new "
-             "samples from "
-             "history; 0: not at all",
+             "samples from history; 0: not at all",
              "", 0.0, 4.0, "Mehra 1970"},
             innovationGain);
     v.visit({"blocks.residual-antialiasing",
              "With antilag, in frames without jitter: anti-aliasing shortens its history where the share of the "
-             "accumulated light in a "
-             "tile is above this. Where the share is 0.5 above, no history is left. 1: nowhere",
+             "accumulated light in a tile is above this. Where the share is 0.5 above, no history is left. 1: nowhere",
              "", 0.0, 1.0, "measured"},
             antialiasingShare);
   }

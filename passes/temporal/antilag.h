@@ -33,8 +33,7 @@ struct AntilagSettings {
             scoreHigh);
     v.visit({"accumulation.fireflies",
              "With antilag: samples of a window's history that must be about as bright as one that passes whole; "
-             "brighter ones are held "
-             "back; 0: off",
+             "brighter ones are held back; 0: off",
              "samples", 0.0, 1000.0, "measured"},
             fireflies);
   }

@@ -35,14 +35,18 @@ Accumulated withTaps(const AccumulationWithTaps& accumulated) {
 
 }  // namespace
 
-TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStages& stages) {
-  if (stages.spatialOnly && inputs.conventions.specular) {
+void requireSpatialLight(const DenoiserInputs& inputs) {
+  if (inputs.conventions.specular) {
     throw std::invalid_argument("setting spatial-only is for diffuse light: specular light is accumulated first");
   }
-  if (stages.spatialOnly && !inputs.conventions.light.everyPixel()) {
+  if (!inputs.conventions.light.everyPixel()) {
     throw std::invalid_argument(
         "setting spatial-only needs a sample of light at every pixel: sparse light is accumulated first");
   }
+}
+
+TemporalPlan planTemporalStages(const DenoiserInputs& inputs, const TemporalStages& stages) {
+  if (stages.spatialOnly) requireSpatialLight(inputs);
   TemporalPlan plan{.accumulation = stages.accumulation,
                     .antialiasing = stages.antialiasing,
                     .accumulates = !stages.spatialOnly,

@@ -39,6 +39,9 @@ struct TemporalPlan {
   fg::Texture shortening = {};                 ///< `SteeredHistory::shortening` of the previous frame, or invalid.
 };
 
+/// @throws std::invalid_argument saying why light must be accumulated before a frame can be filtered
+void requireSpatialLight(const DenoiserInputs& inputs);
+
 /// Decide what the temporal stages do. Accumulation keeps its history taps if anti-aliasing would find the same ones,
 /// as it must for specular light, or if the filter reads a history of its own.
 /// @throws std::invalid_argument if frames are filtered by themselves and not every pixel has a sample of light

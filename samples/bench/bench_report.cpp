@@ -11,6 +11,7 @@
 #include "samples/denoise/report.h"
 #include "samples/estimate/machine.h"
 #include "samples/estimate/shader_figures.h"
+#include "samples/json_text.h"
 
 namespace walr {
 namespace {
@@ -219,7 +220,7 @@ std::string benchJson(const BenchReport& report, const std::string& command) {
   for (const MethodHardCase& result : report.methodHardCases) {
     document["method_hard_cases"].push_back(methodHardCaseJson(result));
   }
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(document, 1);
 }
 
 void printSummary(std::ostream& stream, const BenchReport& report) {

@@ -6,6 +6,7 @@
 
 #include "samples/bench/or_null.h"
 #include "samples/image/file_output.h"
+#include "samples/json_text.h"
 
 namespace walr {
 namespace {
@@ -83,8 +84,7 @@ std::optional<RunRecord> RunStore::find(const std::string& sequence, const std::
 
 void RunStore::save(const std::string& sequence, const RunRecord& record, const std::string& key) const {
   prepareOutputDirectory(folder_ / sequence);
-  const std::string text =
-      Json{{"key", key}, {"run", toJson(record)}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = jsonText(Json{{"key", key}, {"run", toJson(record)}}, 1);
   writeFileAtomically(file(sequence, record.variant), text);
 }
 

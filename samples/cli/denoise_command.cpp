@@ -141,7 +141,7 @@ void listViews(const DenoiseOptions& options) {
             << viewList(views) << '\n';
 }
 
-void refuseUnknownViews(const DenoiseOptions& options, Denoiser& method) {
+void checkViews(const DenoiseOptions& options, Denoiser& method) {
   const std::vector<ViewInfo> views = viewsOf(options, method);
   for (const std::string& wanted : options.views) {
     if (std::ranges::count(options.views, wanted) > 1) throw UsageError("--view " + wanted + ": give each view once");
@@ -284,7 +284,7 @@ void denoise(DenoiseOptions& options) {
     options.sequence.frames = parseFrameRange(options.frames);
   }
   const std::vector<LightMethod> methods = methodsOf(options.method, lights);
-  refuseUnknownViews(options, *methods.front().method);
+  checkViews(options, *methods.front().method);
   refuseOutputIntoInput(options);
   const Sequence sequence(options.input, options.sequence);
   const fg::Extent pictures = extentOfPictures(options.average, sequence);

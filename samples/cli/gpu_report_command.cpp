@@ -18,10 +18,10 @@
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/packed_frame.h"
-#include "samples/errors.h"
 #include "samples/gpu_report/gpu_report.h"
 #include "samples/gpu_report/gpu_report_json.h"
 #include "samples/gpu_report/gpu_report_page.h"
+#include "samples/gpu_report/timed_content.h"
 #include "samples/image/file_output.h"
 
 namespace walr {
@@ -97,8 +97,7 @@ void runGpuReport(GpuReportArguments& arguments, const std::string& command) {
     SequenceOptions replacing;
     replacing.nonFinite = NonFinitePolicy::Replace;
     sequence.emplace(arguments.sequence, replacing);
-    if (sequence->entries().size() < 2)
-      throw InputError(arguments.sequence.string() + ": times need two frames at least");
+    requireTwoFrames(*sequence, arguments.sequence.string());
     checkCameras(*sequence);
     options.sequence = &*sequence;
     options.sequenceName = std::filesystem::weakly_canonical(arguments.sequence).filename().string();

@@ -132,8 +132,8 @@ void registerRender(CLI::App& program) {
       ->check(CLI::Range(0U, kMostBounces))
       ->capture_default_str();
   addResampledFrames(*command, options.resampledFrames);
-  constexpr std::uint32_t kLargestSeed =
-      (1U << 31U) - 1;  // Each has two sequences of numbers: of frames, of references.
+  // Each has two sequences of random numbers, of noisy frames and of references.
+  constexpr std::uint32_t kLargestSeed = (1U << 31U) - 1;
   command->add_option("--seed", options.seed, "Seed of the random numbers")
       ->check(CLI::Range(0U, kLargestSeed))
       ->capture_default_str();

@@ -1,4 +1,5 @@
 #include "samples/denoise/report.h"
+#include "samples/json_text.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -213,7 +214,7 @@ std::string reportJson(const DenoiseReport& report) {
   }
   document["mean"] = meanJson(meanReport(report.frames, 0));
   document["mean_after_4"] = meanJson(meanReport(report.frames, kWarmUpFrames));
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(document, 2);
 }
 
 void printReport(std::ostream& stream, const DenoiseReport& report) {

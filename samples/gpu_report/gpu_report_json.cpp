@@ -4,6 +4,7 @@
 
 #include "samples/bench/or_null.h"
 #include "samples/estimate/shader_figures.h"
+#include "samples/json_text.h"
 
 namespace walr {
 namespace {
@@ -165,7 +166,7 @@ std::string gpuReportJson(const GpuReport& report, const std::string& command) {
   document["results"] = {{"reference", textOrNull(report.reference)},
                          {"missing_because", textOrNull(report.whyNoReference)},
                          {"agreements", std::move(agreements)}};
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(document, 1);
 }
 
 }  // namespace walr

@@ -45,7 +45,12 @@ TimedContent syntheticContent(fg::Extent extent) {
           .frames = {slim(slabFrame(extent, kFirstFrame).packed), slim(slabFrame(extent, kFirstFrame + 1).packed)}};
 }
 
+void requireTwoFrames(const Sequence& sequence, const std::string& name) {
+  if (sequence.entries().size() < 2) throw InputError(name + ": times need two frames at least");
+}
+
 TimedContent sequenceContent(const Sequence& sequence, const std::string& name) {
+  requireTwoFrames(sequence, name);
   const std::size_t count = sequence.entries().size();
   const std::size_t first = count / 2 - 1;
   return {.name = "sequence",

@@ -29,6 +29,8 @@ struct TimedContent {
 
 /// A wall and a slab that moves before it (`slabFrame`).
 TimedContent syntheticContent(fg::Extent extent);
+/// @throws InputError naming a sequence of less than two frames
+void requireTwoFrames(const Sequence& sequence, const std::string& name);
 /// Two frames from the middle of a sequence, at its own size.
 /// @throws InputError naming a sequence of less than two frames, or a file that cannot be read
 TimedContent sequenceContent(const Sequence& sequence, const std::string& name);

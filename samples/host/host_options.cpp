@@ -1,10 +1,10 @@
 #include "samples/host/host_options.h"
-#include "samples/command_line/choice.h"
 
 #include <stdexcept>
 #include <string>
 
 #include "samples/command_line/arguments.h"
+#include "samples/command_line/choice.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/light_rate.h"
 #include "samples/command_line/resampled_frames.h"

@@ -12,6 +12,7 @@
 #include "samples/image/exr.h"
 #include "samples/image/file_output.h"
 #include "samples/image/fingerprint.h"
+#include "samples/json_text.h"
 #include "samples/render/film.h"
 #include "samples/render/load_scene.h"
 #include "samples/render/sequence_frame.h"
@@ -80,7 +81,7 @@ void matchSettings(const RenderOptions& options, const std::string& contents) {
   const nlohmann::json settings = describe(options, contents);
   std::error_code error;
   if (!fs::exists(file, error)) {
-    const std::string text = settings.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    const std::string text = jsonText(settings, 2);
     writeFileAtomically(file, text);
     return;
   }

@@ -408,12 +408,16 @@ TEST_F(DiagnosticsTest, ReadOnlyResourceWritten) {
   expect(code::kReadOnlyWritten, "writer", "past.previous");
 }
 
-TEST_F(DiagnosticsTest, IndirectArgumentsPastTheEnd) {
-  const Buffer arguments = graph.upload("arguments", 16);
-  PassBuilder pass = graph.compute("filter", kFilter);
-  const auto line = __LINE__ - 1;
-  pass.dispatchIndirect(arguments, 8);
-  expect(code::kIndirectArguments, "filter", "arguments", line);
+TEST_F(DiagnosticsTest, IndirectArgumentsPastTheEndOrNoMultipleOfFour) {
+  for (const std::uint64_t offset : {8U, 2U}) {
+    SCOPED_TRACE(offset);
+    graph = Graph();
+    const Buffer arguments = graph.upload("arguments", 16);
+    PassBuilder pass = graph.compute("filter", kFilter);
+    const auto line = __LINE__ - 1;
+    pass.dispatchIndirect(arguments, offset);
+    expect(code::kIndirectArguments, "filter", "arguments", line);
+  }
 }
 
 TEST_F(DiagnosticsTest, TwoLayoutsOfPartsOfAHistoryInOnePass) {
@@ -426,14 +430,6 @@ TEST_F(DiagnosticsTest, TwoLayoutsOfPartsOfAHistoryInOnePass) {
   pass.access(history.previous, Access::SampledRead, {0, 1, 0, 1});
   pass.access(history.previous, Access::StorageRead, {1, 1, 0, 1});
   expect(code::kTwoLayouts, "reader", "past.previous");
-}
-
-TEST_F(DiagnosticsTest, IndirectArgumentsAtAnOffsetThatIsNoMultipleOfFour) {
-  const Buffer arguments = graph.upload("arguments", 16);
-  PassBuilder pass = graph.compute("filter", kFilter);
-  const auto line = __LINE__ - 1;
-  pass.dispatchIndirect(arguments, 2);
-  expect(code::kIndirectArguments, "filter", "arguments", line);
 }
 
 TEST_F(DiagnosticsTest, TwoLayoutsInOnePass) {

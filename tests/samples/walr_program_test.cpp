@@ -586,8 +586,7 @@ TEST_F(ProgramTest, GraphPrintsThePlanWithoutADevice) {
 TEST_F(ProgramTest, GraphListsSettings) {
   const ProcessResult all = walr({"graph", "--list-settings"});
   const ProcessResult ofSpecularLight = walr({"graph", "--light", "specular", "--list-settings"});
-  expectSuccess(all);
-  expectSuccess(ofSpecularLight);
+  for (const ProcessResult* const result : {&all, &ofSpecularLight}) expectSuccess(*result);
   const auto lists = [](const ProcessResult& result, const SettingText& setting) {
     return result.out.find(setting.name + " = " + setting.value) != std::string::npos;
   };
