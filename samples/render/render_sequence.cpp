@@ -138,6 +138,13 @@ int lastIncompleteFrame(const RenderOptions& options) {
   return frame;
 }
 
+// Reservoirs hold light of all frames before, so that those of earlier calls without a gap are traced again.
+int firstFrameOfReservoirs(const RenderOptions& options) {
+  int frame = options.firstFrame;
+  while (frame > 0 && isCompleteExr(options.output / frameFileName("noisy", frame - 1, "exr"))) --frame;
+  return frame;
+}
+
 }  // namespace
 
 bool RenderOptions::hasReference(int frame) const {
@@ -187,7 +194,9 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
     reservoirs.emplace(options.width, options.height, static_cast<float>(options.resampledFrames));
   }
   const int lastIncomplete = lastIncompleteFrame(options);
-  for (int number = options.firstFrame; number <= options.lastFrame; ++number) {
+  const bool retraces = reservoirs && lastIncomplete >= options.firstFrame;
+  const int first = retraces ? firstFrameOfReservoirs(options) : options.firstFrame;
+  for (int number = first; number <= options.lastFrame; ++number) {
     world.moveTo(number / options.framesPerSecond, (number - 1) / options.framesPerSecond);
     const auto jitter = [&](int frame) { return options.jitter ? haltonJitter(frame) : glm::vec2(0.0F); };
     const View view = viewFrom(world, camera, options.width, options.height, jitter(number), jitter(number - 1));
@@ -221,6 +230,7 @@ void renderSequence(const RenderOptions& options, const RenderObserver& observer
       again.pixelsDone = [](std::uint64_t) {};
       tracer->film(view, again);
     }
+    if (number < options.firstFrame) continue;
     renderFile(noisyFile, options.noisyPaths(), observer, [&] {
       const Film film = tracer->film(view, noisy);
       Frame frame = toFrame(film, view, number);

@@ -303,6 +303,12 @@ TEST(RenderSequence, ResumesAResampledSequence) {
   render(options);
   EXPECT_EQ(lastLight(), whole);
 
+  // In two calls, of which the second goes on where the first one ended.
+  fs::remove(folder.path() / frameFileName("noisy", 5, "exr"));
+  options.firstFrame = 5;
+  render(options);
+  EXPECT_EQ(lastLight(), whole);
+
   options.resampledFrames = 0;
   fg::test::expectError<InputError>([&] { render(options); }, {"'resampled_frames'"});
 }
