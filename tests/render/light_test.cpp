@@ -14,7 +14,7 @@
 #include "tests/render/scene_builder.h"
 #include "tests/render/statistics.h"
 
-namespace walr::render {
+namespace walr::render::light_test {
 namespace {
 
 using test::kConfidence;
@@ -302,4 +302,4 @@ TEST(Light, ResultDoesNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace walr::render
+}  // namespace walr::render::light_test

@@ -17,7 +17,7 @@
 #include "tests/render/ggx.h"
 #include "tests/render/scene_builder.h"
 
-namespace walr::render {
+namespace walr::render::mirrors_test {
 namespace {
 
 using test::SceneBuilder;
@@ -197,4 +197,4 @@ TEST(MirrorsInFilms, TurnTheMotionOfWhatIsReflected) {
 }
 
 }  // namespace
-}  // namespace walr::render
+}  // namespace walr::render::mirrors_test

@@ -12,7 +12,7 @@
 #include "samples/render/view.h"
 #include "samples/render/world.h"
 
-namespace walr::render {
+namespace walr::render::motion_test {
 namespace {
 
 constexpr std::uint32_t kWidth = 160;
@@ -154,4 +154,4 @@ TEST(GBuffer, NormalsAreUnitAndFaceTheCamera) {
 }
 
 }  // namespace
-}  // namespace walr::render
+}  // namespace walr::render::motion_test

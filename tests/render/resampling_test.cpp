@@ -15,7 +15,7 @@
 #include "tests/render/scene_builder.h"
 #include "tests/render/statistics.h"
 
-namespace walr::render {
+namespace walr::render::resampling_test {
 namespace {
 
 using test::kConfidence;
@@ -188,4 +188,4 @@ TEST(Resampling, ReusesNothingOfOtherSurfaces) {
 }
 
 }  // namespace
-}  // namespace walr::render
+}  // namespace walr::render::resampling_test

@@ -24,7 +24,7 @@
 #include "tests/render/statistics.h"
 #include "tests/samples/temporary_directory.h"
 
-namespace walr::render {
+namespace walr::render::sky_test {
 namespace {
 
 using test::kConfidence;
@@ -231,4 +231,4 @@ TEST_F(SkyFile, DamagedFilesNeverCrash) {
 }
 
 }  // namespace
-}  // namespace walr::render
+}  // namespace walr::render::sky_test

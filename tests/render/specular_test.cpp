@@ -19,7 +19,7 @@
 #include "tests/render/scene_builder.h"
 #include "tests/render/statistics.h"
 
-namespace walr::render {
+namespace walr::render::specular_test {
 namespace {
 
 using test::kConfidence;
@@ -323,4 +323,4 @@ TEST(SpecularMotion, IsTheMeanOverThePaths) {
 }
 
 }  // namespace
-}  // namespace walr::render
+}  // namespace walr::render::specular_test
