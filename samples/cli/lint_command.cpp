@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +27,13 @@ struct LintOptions {
   SequenceOptions sequence;
 };
 
+std::string describe(const std::vector<NonFiniteChannel>& channels, const std::string& where) {
+  const NonFiniteChannel& first = channels.front();
+  return first.file.string() + ": channel " + first.channel + " is NaN or infinite on " + std::to_string(first.count) +
+         " pixels " + where + ", the first at (" + std::to_string(first.firstX) + ", " + std::to_string(first.firstY) +
+         "); " + std::to_string(channels.size()) + " channels of all frames have such pixels";
+}
+
 void lint(LintOptions& options) {
   if (!options.frames.empty()) options.sequence.frames = parseFrameRange(options.frames);
   options.sequence.nonFinite = NonFinitePolicy::Replace;
@@ -35,10 +41,12 @@ void lint(LintOptions& options) {
   const Sequence sequence(options.input, options.sequence);
   GpuDevice device(options.gpu);
   GpuLinter linter(device, sequence.extent(), sequence.denoiserLayout());
-  std::vector<NonFiniteChannel> nonFinite;
+  std::vector<NonFiniteChannel> ofFrames, ofReferences;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
     const Frame frame = sequence.read(i);
-    std::ranges::copy(frame.nonFinite, std::back_inserter(nonFinite));
+    for (const NonFiniteChannel& channel : frame.nonFinite) {
+      (channel.file == sequence.entries()[i].reference ? ofReferences : ofFrames).push_back(channel);
+    }
     linter.add(frame);
   }
   device.refuseMessages();
@@ -50,13 +58,17 @@ void lint(LintOptions& options) {
   }
   // Without a surface, the linter takes such values for sky.
   const auto namesThem = [](const LintFinding& finding) { return finding.name.ends_with("-not-finite"); };
-  if (!nonFinite.empty() && std::ranges::none_of(findings, namesThem)) {
-    findings.push_back({"sky-not-finite",
-                        nonFinite[0].file.string() + ": channel " + nonFinite[0].channel + " is NaN or infinite on " +
-                            std::to_string(nonFinite[0].count) + " pixels of the sky; " +
-                            std::to_string(nonFinite.size()) + " channels of all frames have such pixels",
+  if (!ofFrames.empty() && std::ranges::none_of(findings, namesThem)) {
+    findings.push_back({"sky-not-finite", describe(ofFrames, "of the sky"),
                         "rays that hit nothing got no finite depth, or other values that were not set",
                         "write a depth of 1e10 and zeros there, or give walr denoise --non-finite replace"});
+  }
+  if (!ofReferences.empty()) {
+    findings.push_back(
+        {"reference-not-finite", describe(ofReferences, "of a reference"),
+         "a path with a division by zero, which spoils the mean of all samples of its pixel",
+         "write NaN in all channels of a pixel that no error may count, or give walr denoise --non-finite "
+         "replace, which leaves such pixels out"});
   }
   for (const LintFinding& finding : findings) std::cout << finding.text() << '\n';
   std::cout.flush();

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "samples/image/exr.h"
+#include "tests/samples/exr_files.h"
 #include "tests/samples/process.h"
 #include "tests/samples/synthetic_sequence.h"
 #include "tests/samples/temporary_directory.h"
@@ -26,6 +28,13 @@ inline Image readPlane(const std::filesystem::path& file, const std::string& pla
 
 inline void expectFinite(const Image& image) {
   EXPECT_TRUE(std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); }));
+}
+
+/// A file with the channels of Cycles' layout that are always read.
+inline void writeCycles(const std::filesystem::path& file, test::ExrPart part, const Imath::Box2i& display) {
+  part.channels = {"Depth.Z",   "DiffCol.B", "DiffCol.G", "DiffCol.R", "DiffInd.B", "DiffInd.G",
+                   "DiffInd.R", "Normal.X",  "Normal.Y",  "Normal.Z",  "Vector.X",  "Vector.Y"};
+  std::ofstream(file, std::ios::binary) << test::exrBytes({.parts = {part}, .display = display});
 }
 
 /// The program as users call it: exit codes, messages, files.
