@@ -45,6 +45,7 @@ layout(r32ui) uniform writeonly uimage2D outFiltered;
 layout(r16f) uniform writeonly image2D outStandardError;
 #endif
 
+#include "filters/interleaved_quads.glsl"
 #include "filters/lobe_weight.glsl"
 #include "stage/pass_through.glsl"
 #ifdef FIRST
@@ -54,9 +55,7 @@ layout(r16f) uniform writeonly image2D outStandardError;
 const float kNoSample = -1.0;
 const float kMirrorErrors = 2.5;  // kLuminanceErrors of mirrors, which show edges that only light tells.
 
-// With an odd spacing, a work group filters 16 x 16 pixels. With an even one, it filters 8 x 8 quads of 2 x 2 pixels,
-// which are as far apart as taps, so that taps far apart lie in one small tile of quads. Other groups filter the quads
-// between.
+// With an odd spacing, a work group filters 16 x 16 pixels. With an even one, it filters 8 x 8 quads.
 const int kSide = 16;
 const bool kQuads = kSpacing % 2 == 0;
 const int kTapSpacing = kQuads ? 2 : kSpacing;  // In the tile.
@@ -64,11 +63,7 @@ const int kTileSide = kSide + 2 * kTapSpacing;
 const int kTilePixels = kTileSide * kTileSide;
 
 ivec2 pixelAt(ivec2 place) {
-  const ivec2 group = ivec2(gl_WorkGroupID.xy);
-  if (!kQuads) return group * kSide + place;
-  const int interleaved = kSpacing / 2;
-  const ivec2 first = group / interleaved * (kSide * interleaved) + group % interleaved * 2;
-  return first + (place >> 1) * kSpacing + (place & 1);
+  return kQuads ? pixelOfQuads(place, kSide, kSpacing) : ivec2(gl_WorkGroupID.xy) * kSide + place;
 }
 
 struct Light {

@@ -7,11 +7,11 @@
 // Needs: `frame` (FrameConstants).
 #ifndef WALR_LOBE_WEIGHT_GLSL
 #define WALR_LOBE_WEIGHT_GLSL
+#include "common/natural_exponent.glsl"
 #include "conventions/camera.glsl"
 #include "conventions/lobe.glsl"
 #include "conventions/reflector.glsl"
 
-const float kLog2OfE = 1.44269504;
 // Part of a lobe's half angle over which the weight falls to exp(-1/2).
 float lobeShare(float angle) { return clamp(1.6 - 5.0 * angle, 0.7, 1.4); }
 const float kWidestLobe = 0.41;       // Half angle of the widest part, radians: normals turn by half of it.

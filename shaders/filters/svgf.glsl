@@ -3,6 +3,7 @@
 // Needs: `frame` (FrameConstants), `constants` (SvgfFilterConstants).
 #ifndef WALR_SVGF_GLSL
 #define WALR_SVGF_GLSL
+#include "common/natural_exponent.glsl"
 #include "conventions/plane.glsl"
 #include "conventions/surface.glsl"
 
@@ -18,8 +19,6 @@ struct Surface {
   float perDepth;
   vec2 slope;  // The rays of evenly spaced pixels are evenly spaced.
 };
-
-const float kLog2OfE = 1.44269504;
 
 Surface surfaceOf(ivec2 p, float z, vec3 geometricNormal, vec3 shadingNormal) {
   const Plane plane = planeAt(p, z, geometricNormal);

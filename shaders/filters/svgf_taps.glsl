@@ -6,6 +6,7 @@
 #ifndef WALR_SVGF_TAPS_GLSL
 #define WALR_SVGF_TAPS_GLSL
 #include "conventions/surface.glsl"
+#include "filters/interleaved_quads.glsl"
 
 struct Tap {
   float z;  // 0 where the tap does not count: outside the image, without a surface or without a sample.
@@ -36,9 +37,7 @@ ivec2 pixelOfThread() { return ivec2(gl_GlobalInvocationID.xy); }
 void prepareTaps() {}
 Tap tapAt(ivec2 p, ivec2 tap) { return readTap(p + kSpacing * tap); }
 #else
-// A work group filters 8 x 8 quads of 2 x 2 pixels. Where taps are more than two pixels apart, so are the quads: the
-// pixels of the group and of all its taps then form one square tile of quads, which is small enough for shared memory.
-// Other groups filter the quads between.
+// A work group filters 8 x 8 quads (interleaved_quads.glsl), which lie side by side where taps are one pixel apart.
 const int kGroupSide = 16;
 const int kQuadSpacing = kSpacing < 2 ? 2 : kSpacing;
 const int kTapSpacing = kSpacing < 2 ? 1 : 2;  // In the tile.
@@ -54,13 +53,7 @@ shared uint tileLobe[kTilePixels];  // Its other values, as two halves.
 #endif
 shared uvec2 tileColour[kTilePixels];  // As four halves.
 
-// Pixel at a place in the tile. Place 0 is the first pixel that the group filters.
-ivec2 pixelAt(ivec2 place) {
-  const uvec2 group = gl_WorkGroupID.xy;
-  const uint interleaved = uint(kQuadSpacing) / 2u;  // Groups per axis that filter the same area.
-  const uvec2 first = group / interleaved * (uint(kGroupSide) * interleaved) + group % interleaved * 2u;
-  return ivec2(first) + (place >> 1) * kQuadSpacing + (place & 1);
-}
+ivec2 pixelAt(ivec2 place) { return pixelOfQuads(place, kGroupSide, kQuadSpacing); }
 
 ivec2 pixelOfThread() { return pixelAt(ivec2(gl_LocalInvocationID.xy)); }
 
