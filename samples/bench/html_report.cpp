@@ -14,8 +14,10 @@ std::string writeHtmlReport(const std::filesystem::path& output, const std::stri
   const int code = runChild({python, script.string(), output.string()}, ChildOutput::Inherited).exitCode;
   if (code == 0) return {};
   return "no report.html: '" + python + " " + script.string() + " " + output.string() + "' " +
-         (code < 0 ? "cannot be run" : "failed") +
-         ". It needs Python 3 with matplotlib (Debian: python3-matplotlib); --python can name another interpreter";
+         (code < 0 ? "cannot be run" : "failed, for the reason above") +
+         ". It needs the pictures beside bench.json, and Python 3 with matplotlib (Debian: python3-matplotlib); "
+         "--python can "
+         "name another interpreter";
 }
 
 }  // namespace walr

@@ -339,10 +339,10 @@ def play(host, screen):
         window.choose_view("denoised")
         window.choose_method(names.index("accumulate"), len(names))
         window.freeze()
-        time.sleep(4.0)
-        settled = [window.picture()]
-        while len(settled) < 8:
-            settled.append(wait_for(lambda: (now := window.picture()) != settled[-1] and now, "the next frame"))
+        pictures = [window.picture()]
+        while len(pictures) < 24:  # Of the first sixteen, each has more samples than the one before.
+            pictures.append(wait_for(lambda: (now := window.picture()) != pictures[-1] and now, "the next frame"))
+        settled = pictures[16:]
         mean = [bytes(sum(column) // len(settled) for column in zip(*rows)) for rows in zip(*settled)]
         usual = max(distance(picture, mean) for picture in settled)
         window.reset_history()
