@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@
 #include "samples/cli/command.h"
 #include "samples/command_line/arguments.h"
 #include "samples/command_line/channel_options.h"
+#include "samples/command_line/choice.h"
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/exit_code.h"
 #include "samples/command_line/motion_depth.h"
@@ -23,6 +25,7 @@ namespace {
 struct LintOptions {
   std::filesystem::path input;
   std::string frames;
+  Light light = Light::Indirect;
   GpuDevice::Options gpu;
   SequenceOptions sequence;
 };
@@ -37,13 +40,15 @@ std::string describe(const std::vector<NonFiniteChannel>& channels, const std::s
 void lint(LintOptions& options) {
   if (!options.frames.empty()) options.sequence.frames = parseFrameRange(options.frames);
   options.sequence.nonFinite = NonFinitePolicy::Replace;
-  options.sequence.light.specular = SpecularWish::IfHeld;
+  const bool direct = options.light == Light::Direct;
+  options.sequence.light = {.indirect = !direct, .direct = direct, .specular = SpecularWish::IfHeld};
   const Sequence sequence(options.input, options.sequence);
   GpuDevice device(options.gpu);
   GpuLinter linter(device, sequence.extent(), sequence.denoiserLayout());
   std::vector<NonFiniteChannel> ofFrames, ofReferences;
   for (std::size_t i = 0; i < sequence.entries().size(); ++i) {
-    const Frame frame = sequence.read(i);
+    Frame frame = sequence.read(i);
+    if (direct) frame.indirect = std::move(frame.direct);
     for (const NonFiniteChannel& channel : frame.nonFinite) {
       (channel.file == sequence.entries()[i].reference ? ofReferences : ofFrames).push_back(channel);
     }
@@ -89,6 +94,9 @@ void registerLint(CLI::App& program) {
       "and for albedo left in the lighting; exit code 3 if something looks wrong");
   command->add_option("INPUT", options->input, "Folder of frames, as for walr denoise")->required()->type_name("DIR");
   command->add_option("--frames", options->frames, "First and last frame to check; default: all")->type_name("A-B");
+  addChoice<Light, Light>(*command, "--light", options->light,
+                          {{"indirect", Light::Indirect}, {"direct", Light::Direct}}, "indirect",
+                          "Part of diffuse light to check");
   addDeviceOptions(*command, options->gpu);
   addMotionDepth(*command, options->sequence);
   addChannelOptions(*command, options->sequence);

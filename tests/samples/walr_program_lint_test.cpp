@@ -72,6 +72,15 @@ TEST_F(ProgramTest, LintsWhatIsNotFiniteInAReference) {
       << result.out;
 }
 
+TEST_F(ProgramTest, LintsDirectLightOnRequest) {
+  files.write(0, 0);
+  files.writeFrame(0, [](Channels& channels) { channels.at("DiffDir.R").at(5, 7, 0) = HUGE_VALF; });
+  expectSuccess(walr({"lint", input.string()}));
+  const ProcessResult result = walr({"lint", input.string(), "--light", "direct"});
+  expectFailure(result, kInput, {"1 thing looks wrong"});
+  EXPECT_TRUE(result.out.starts_with("lighting-not-finite: ")) << result.out;
+}
+
 TEST_F(ProgramTest, LintsWhatItRendered) {
   const std::string scene = std::string(WALR_SCENES) + "/box.gltf";
   expectSuccess(walr({"render", scene, "--output", input.string(), "--frames", "0-3", "--size", "96x54",
