@@ -170,12 +170,21 @@ class Window:
         self.choose(158 + self.LINE * self.view_extras, index, count)
 
     def choose(self, y, index, count):
-        """Open the chooser whose middle is at a height, and take an item from its list; frozen, or times change too."""
+        """Open the chooser whose middle is at a height, and take an item from its list; frozen, or times change too. Under load
+        a click may be lost, so it is repeated, unless the chooser shows another item afterwards."""
+        shown = self.chooser(y)
+        for _ in range(3):
+            top = wait_for(lambda: self.opened_list(y, count), f"a list of {count} items to open at {y}")
+            border = self.rows()[top]
+            self.hands.click(*self.at(100, top + 8 + 6 + index * self.ITEM))
+            wait_for(lambda: self.rows()[top] != border, f"the list at {y} to close")
+            if self.chooser(y) != shown:
+                break
+
+    def chooser(self, y):
+        """What the chooser whose middle is at a height shows under the mouse."""
         self.hands.move(*self.at(100, y))
-        top = wait_for(lambda: self.opened_list(y, count), f"a list of {count} items to open at {y}")
-        border = self.rows()[top]
-        self.hands.click(*self.at(100, top + 8 + 6 + index * self.ITEM))
-        wait_for(lambda: self.rows()[top] != border, f"the list at {y} to close")
+        return self.rows()[y - 8:y + 8]
 
     def opened_list(self, y, count):
         """Click at the chooser and return the first row of its list. A frame that ended meanwhile changes other rows, too:
