@@ -1,5 +1,4 @@
 #include "samples/denoise/report.h"
-#include "samples/json_text.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -8,6 +7,8 @@
 #include <string_view>
 
 #include <nlohmann/json.hpp>
+
+#include "samples/json_text.h"
 
 namespace walr {
 namespace {

@@ -138,7 +138,7 @@ int lastIncompleteFrame(const RenderOptions& options) {
   return frame;
 }
 
-// Reservoirs hold light of all frames before, so that those of earlier calls without a gap are traced again.
+// Reservoirs hold light of all frames before. Frames that earlier calls wrote are traced again, back to the first gap.
 int firstFrameOfReservoirs(const RenderOptions& options) {
   int frame = options.firstFrame;
   while (frame > 0 && isCompleteExr(options.output / frameFileName("noisy", frame - 1, "exr"))) --frame;
