@@ -36,6 +36,7 @@ class LintJudge {
   // lint_specular.cpp; they find nothing without the counts of `addLintSpecular`.
   void judgeSpecularValues();
   void judgeSpecularPresence();
+  void judgeSpecularDistances();
   void judgeLobes();
   void judgeReflectedDistance();
   void judgeReflectedMotion();

@@ -10,6 +10,12 @@
 #include "shaders/shaders.h"
 
 namespace walr {
+namespace {
+
+constexpr std::string_view kDistanceWayOut =
+    "write the distance from the surface to the first hit of the specular path, scene units";
+
+}  // namespace
 
 fg::Buffer addLintSpecular(fg::Graph& graph, const LintSpecularInputs& from, fg::Buffer counters) {
   const DenoiserInputs& inputs = from.inputs;
@@ -53,6 +59,7 @@ void LintJudge::judgeSpecularValues() {
   count(kSpecularRoughnessOutside, "roughness-range", "roughness is not from 0 to 1 on ",
         "glossiness in percent, or an exponent", "write linear roughness as in glTF, 0 to 1");
   judgeSpecularPresence();
+  judgeSpecularDistances();
 }
 
 void LintJudge::judgeSpecularPresence() {
@@ -73,6 +80,21 @@ void LintJudge::judgeSpecularPresence() {
     add({"specular-albedo-empty", "the specular albedo is 0 on all pixels with a surface",
          "its image was not written, or is another one",
          "write walrSpecularAlbedo: without it, a pixel passes through with its noise"});
+  }
+}
+
+void LintJudge::judgeSpecularDistances() {
+  const std::uint64_t all = counts_[kSpecularDistances];
+  const auto isNearlyAll = [&](std::uint64_t part) { return all >= kLeastLintSample && 20 * part > 19 * all; };
+  if (const std::uint64_t ones = counts_[kSpecularDistanceOne]; isNearlyAll(ones)) {
+    add({"specular-distance-mask",
+         "the distance to what is reflected is 1 on " + share(ones, all, "pixels that reflect a surface"),
+         "the alpha of specular light is a mask, or was not written", kDistanceWayOut});
+  } else if (const std::uint64_t shorts = counts_[kSpecularDistanceShort]; isNearlyAll(shorts)) {
+    add({"specular-distance-short",
+         "the distance to what is reflected is less than a fiftieth of depth on " +
+             share(shorts, all, "pixels that reflect a surface"),
+         "the distance is in larger units than depth", kDistanceWayOut});
   }
 }
 
@@ -107,6 +129,7 @@ void LintJudge::judgeLobes() {
 }
 
 void LintJudge::judgeReflectedDistance() {
+  if (has("specular-distance-mask") || has("specular-distance-short")) return;
   const std::uint64_t given = counts_[kReflectedSeen] + counts_[kReflectedInAir];
   const std::uint64_t left = counts_[kFromEyeSeen] + counts_[kFromEyeInAir];
   // Points too far away lie behind what the picture shows, and say nothing.
@@ -120,7 +143,7 @@ void LintJudge::judgeReflectedDistance() {
                        "points that mirrors show are in the air, where the picture shows no surface"),
        fromEye ? "the distance was measured from the eye"
                : "the distance is that of another ray, such as the diffuse one, or in other units",
-       "write the distance from the mirror's surface to the first hit of the specular path, scene units"});
+       kDistanceWayOut});
 }
 
 void LintJudge::judgeReflectedMotion() {

@@ -19,9 +19,10 @@ struct LintSpecularInputs {
 /// (as `LintJudge::judgeAlbedo` does), so only where surfaces have textures of metal or of its colour. Without
 /// roughness, which changes the light, too, pairs tell nothing. The encoding of roughness is found on dielectrics,
 /// whose albedo depends on roughness in a known way (walr/specular_albedo.h). Lobes that were swapped are found on
-/// metals, which reflect no diffuse light. A mirror's pixel and its distance give a point. Where the picture shows that
-/// place, it must show a surface there: else the point floats in the air, and the distance is another one. Where the
-/// picture shows the point itself, its motion must be that surface's.
+/// metals, which reflect no diffuse light. Distances that are 1 on nearly all pixels are a mask, and those that are
+/// short for their depth are in larger units. A mirror's pixel and its distance give a point. Where the picture shows
+/// that place, it must show a surface there: else the point floats in the air, and the distance is another one. Where
+/// the picture shows the point itself, its motion must be that surface's.
 /// @param counters as `addLintInputs` returned them
 /// @returns its new version
 fg::Buffer addLintSpecular(fg::Graph& graph, const LintSpecularInputs& inputs, fg::Buffer counters);

@@ -83,7 +83,13 @@ const uint kLintSpecularSampled = 76;   // A distance.
 const uint kLintSpecularLit = 77;
 const uint kLintSpecularAlbedo = 78;
 
-const uint kLintCountWords = 79;
+// Surfaces that reflect another one, by distance; those of them whose distance is 1, as in a mask, or short for their depth.
+const uint kSpecularDistances = 79;
+const uint kSpecularDistanceOne = 80;
+const uint kSpecularDistanceShort = 81;
+const float kShortDistance = 0.02;  // Over depth.
+
+const uint kLintCountWords = 82;
 
 // Samples: a pixel of each cell of a grid over the image, another one in each frame.
 const uint kLintFirstSample = 256;

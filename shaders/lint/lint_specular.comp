@@ -64,6 +64,8 @@ Pixel pixelAt(ivec2 p) {
                lightSampleAt(lighting, p), kDistance ? distanceAt(p) : 0.0);
 }
 
+bool reflectsSurface(Pixel at) { return at.distance > 0.0 && at.distance < min(frame.skyDepth, kLargestHalf); }
+
 void countValues(Pixel at) {
   const vec3 moved = kMotion ? texelFetch(specularMotion, at.place, 0).xyz : vec3(0.0);
   // What halves cannot hold, such as 1e10, may be infinity, and is far away.
@@ -72,6 +74,9 @@ void countValues(Pixel at) {
                                 !isFinite(at.roughness) || !isFinite(moved));
   count(kSpecularNegative, any(lessThan(at.light.radiance, vec3(0.0))));
   count(kSpecularDistanceNegative, at.distance < 0.0);
+  count(kSpecularDistances, reflectsSurface(at));
+  count(kSpecularDistanceOne, at.distance == 1.0);
+  count(kSpecularDistanceShort, at.distance > 0.0 && at.distance < kShortDistance * at.depth);
   count(kSpecularRoughnessOutside, at.roughness < 0.0 || at.roughness > 1.0);
   count(kLintSpecularSurfaces, true);
   count(kLintSpecularSampled, !kDistance || at.distance > 0.0);
@@ -171,7 +176,7 @@ void countMotion(ivec2 p, vec3 told) {
 
 void countReflection(Pixel at) {
   if (!(at.roughness >= 0.0 && at.roughness <= kMirrorUpTo)) return;
-  if (!(at.distance > 0.0 && at.distance < min(frame.skyDepth, kLargestHalf))) return;
+  if (!reflectsSurface(at)) return;
   if (!isFinite(at.normal) || length(at.normal) < 0.5) return;
   const vec3 position = positionAt(at.place);
   const vec3 mirrored = reflect(normalize(position), normalize(at.normal));

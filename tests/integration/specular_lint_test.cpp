@@ -74,6 +74,15 @@ TEST_F(SpecularLint, FindsMistakesOfHosts) {
        [](HostFrame& frame) {
          for (double& distance : frame.lightAlpha.pixels()) distance *= 0.5;
        }},
+      {{"specular-distance-mask"},
+       [](HostFrame& frame) {
+         for (double& distance : frame.lightAlpha.pixels()) distance = 1.0;
+       }},
+      // Kilometres beside metres.
+      {{"specular-distance-short"},
+       [](HostFrame& frame) {
+         for (double& distance : frame.lightAlpha.pixels()) distance /= 1000.0;
+       }},
       {{"specular-motion-sign"},
        [](HostFrame& frame) {
          for (glm::dvec3& motion : frame.specularMotion.pixels()) motion = -motion;

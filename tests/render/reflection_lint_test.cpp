@@ -82,6 +82,12 @@ TEST(GpuLinter, FindsDistancesOfAnotherRay) {
                     for (float& d : frame.specularDistance.values()) d *= 0.5F;
                   }),
             wrong);
+  // Metres beside centimetres.
+  EXPECT_EQ(found(frames,
+                  [](Frame& frame) {
+                    for (float& d : frame.specularDistance.values()) d *= 0.01F;
+                  }),
+            Names{"specular-distance-short"});
   // The distance from the eye.
   const Change fromEye = [](Frame& frame) {
     const FrameConstants constants = frameConstantsOf(frame, glm::vec2(1.0F));
