@@ -52,15 +52,18 @@ std::uint32_t structSize(const Struct* given, const char* name) {
 template <typename Struct>
 Struct readStruct(const Struct* given, const char* name) {
   const std::uint32_t size = structSize(given, name);
+  Struct known{};
+  std::memcpy(&known, given, std::min<std::size_t>(size, sizeof(Struct)));
   const auto* bytes = reinterpret_cast<const std::byte*>(given);
-  if (std::any_of(bytes + std::min<std::size_t>(size, sizeof(Struct)), bytes + size,
-                  [](std::byte b) { return b != std::byte{0}; })) {
+  bool hasUnknown = std::any_of(bytes + std::min<std::size_t>(size, sizeof(Struct)), bytes + size,
+                                [](std::byte b) { return b != std::byte{0}; });
+  // A newer header may have a field in its place.
+  if constexpr (requires { known.reserved; }) hasUnknown = hasUnknown || known.reserved != 0;
+  if (hasUnknown) {
     throw Error(WALR_ERROR_STRUCT_SIZE, std::string(name) +
                                             " has fields set that this version of the library does not know: use the "
                                             "header that came with it");
   }
-  Struct known{};
-  std::memcpy(&known, given, std::min<std::size_t>(size, sizeof(Struct)));
   return known;
 }
 

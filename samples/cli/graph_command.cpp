@@ -158,9 +158,11 @@ void registerGraph(CLI::App& program) {
       "graph", "Print a method's frame-graph plan: passes in order, textures with format and lifetime, memory");
   addMethodOptions(*command, options->method);
   CLI::Option* const light =
-      command->add_option("--light", options->lights, "Light that is denoised: diffuse, specular, or both in one graph")
-          ->check(CLI::IsMember({"diffuse", "specular", "both"}))
-          ->option_text("diffuse|specular|both=diffuse");
+      command
+          ->add_option("--light", options->lights,
+                       "Light that is denoised: diffuse, specular, or all, which is both in one graph")
+          ->check(CLI::IsMember({"diffuse", "specular", "all"}))
+          ->option_text("diffuse|specular|all=diffuse");
   command
       ->add_option("--second-preset", options->secondPreset,
                    "Two lights that share their guides: the preset of the second. Settings count for both")

@@ -106,6 +106,9 @@ static void test_create(const WalrDevice* device) {
   larger.info.struct_size = sizeof(larger);
   EXPECT(walr_create_denoiser(&larger.info, &denoiser), WALR_ERROR_STRUCT_SIZE, "does not know");
   larger.later = 0;
+  larger.info.reserved = 1;
+  EXPECT(walr_create_denoiser(&larger.info, &denoiser), WALR_ERROR_STRUCT_SIZE, "does not know");
+  larger.info.reserved = 0;
   EXPECT_OK(walr_create_denoiser(&larger.info, &denoiser));
   EXPECT_OK(walr_destroy_denoiser(denoiser));
 }

@@ -52,6 +52,9 @@ static void test_images(Host* host, const WalrDevice* device) {
   DEPTH(image.struct_size = 4);
 #undef DEPTH
   EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_STRUCT_SIZE, "sizeof(WalrImage)");
+  frame = good;
+  frame.reserved = 1;
+  EXPECT(walr_record(denoiser, commands, &frame), WALR_ERROR_STRUCT_SIZE, "does not know");
   image = images.image[0];
   image.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
   REFUSED("also the output", frame.denoised = &image);

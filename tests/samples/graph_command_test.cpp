@@ -125,9 +125,9 @@ TEST(GraphCommand, PrintsTheTrafficOfTwoLights) {
   EXPECT_LT(both, 2 * one - 20 - 8 + 4);  // It reads the guides' depth instead (4).
   const double diffuse = bytesPerPixel({"--json"}), specular = bytesPerPixel({"--json", "--light", "specular"});
   EXPECT_GT(specular, diffuse);
-  EXPECT_NEAR(bytesPerPixel({"--json", "--light", "both"}), diffuse + specular, 1e-3);
-  test::expectFailure(graph({"--light", "both", "--method", "flr"}), test::kUsage, {"--light both", "flr", "diffuse"});
-  test::expectFailure(graph({"--light", "both", "--second-preset", "standard"}), test::kUsage, {"--second-preset"});
+  EXPECT_NEAR(bytesPerPixel({"--json", "--light", "all"}), diffuse + specular, 1e-3);
+  test::expectFailure(graph({"--light", "all", "--method", "flr"}), test::kUsage, {"--light all", "flr", "diffuse"});
+  test::expectFailure(graph({"--light", "all", "--second-preset", "standard"}), test::kUsage, {"--second-preset"});
   test::expectFailure(graph({"--second-preset", "magic"}), test::kUsage, {"magic", "known presets"});
   test::expectFailure(graph({"--method", "none", "--second-preset", "magic"}), test::kUsage, {"magic"});
 }
