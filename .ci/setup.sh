@@ -17,7 +17,7 @@ walr_packages=(
   abigail-tools doxygen file graphviz libbenchmark-dev libgtest-dev libxml2-utils libxtst6 python3 python3-jsonschema
   python3-matplotlib python3-pyflakes python3-skimage xvfb
 )
-# Those of .ci/windows.sh.
+# What the tests on Windows need. .ci/windows.sh installs these alone.
 walr_windows_packages=(g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 wine wine64 googletest lld llvm xvfb)
 
 walr_setup() {

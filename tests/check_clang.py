@@ -19,7 +19,7 @@ import tempfile
 
 STRICT_MAJOR_VERSIONS = ("14", "19")
 # The headers that cost most. None of them depends on a macro that a source of this project defines. The last one is half of
-# what a source of the library costs, and whatever uses it also includes it by way of others.
+# what a source of the library costs. This check cannot find a source that uses it without including it.
 SHARED_HEADERS = """
 algorithm array atomic charconv chrono cmath cstdint cstring deque filesystem fstream functional iomanip iostream iterator
 limits map memory mutex numbers numeric optional random set span sstream stdexcept string string_view thread utility variant

@@ -52,12 +52,12 @@ std::uint32_t structSize(const Struct* given, const char* name) {
 template <typename Struct>
 Struct readStruct(const Struct* given, const char* name) {
   const std::uint32_t size = structSize(given, name);
+  const std::size_t knownSize = std::min<std::size_t>(size, sizeof(Struct));
   Struct known{};
-  std::memcpy(&known, given, std::min<std::size_t>(size, sizeof(Struct)));
+  std::memcpy(&known, given, knownSize);
   const auto* bytes = reinterpret_cast<const std::byte*>(given);
-  bool hasUnknown = std::any_of(bytes + std::min<std::size_t>(size, sizeof(Struct)), bytes + size,
-                                [](std::byte b) { return b != std::byte{0}; });
-  // A newer header may have a field in its place.
+  bool hasUnknown = std::any_of(bytes + knownSize, bytes + size, [](std::byte b) { return b != std::byte{0}; });
+  // A newer header may have a field in place of `reserved`.
   if constexpr (requires { known.reserved; }) hasUnknown = hasUnknown || known.reserved != 0;
   if (hasUnknown) {
     throw Error(WALR_ERROR_STRUCT_SIZE, std::string(name) +

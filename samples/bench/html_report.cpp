@@ -16,8 +16,7 @@ std::string writeHtmlReport(const std::filesystem::path& output, const std::stri
   return "no report.html: '" + python + " " + script.string() + " " + output.string() + "' " +
          (code < 0 ? "cannot be run" : "failed, for the reason above") +
          ". It needs the pictures beside bench.json, and Python 3 with matplotlib (Debian: python3-matplotlib); "
-         "--python can "
-         "name another interpreter";
+         "--python can name another interpreter";
 }
 
 }  // namespace walr

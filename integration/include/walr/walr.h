@@ -8,10 +8,9 @@
  * Rules that hold everywhere:
  * - Every function that can fail returns a WalrResult. walr_last_error() then returns a text that tells what is wrong
  *   and how to fix it. No wrong argument crashes, except pointers to memory that is not valid.
- * - Structures begin with `struct_size`, which the caller sets to sizeof. If the library is newer than the caller's
- *   header, fields that the caller lacks count as zero. If it is older, it refuses nonzero fields that it does not
- *   know, also in place of `reserved`. Zero is the default of every field. New fields come last. Structures without
- *   `struct_size` never change.
+ * - Structures begin with `struct_size`, which the caller sets to sizeof; those without it never change. If the
+ *   library is newer than the caller's header, fields that the caller lacks count as zero. An older library refuses
+ *   nonzero fields that it does not know, also in `reserved`. Zero is every field's default. New fields come last.
  * - A VkBool32 must be VK_FALSE or VK_TRUE. Any other value is a WALR_ERROR_INVALID_ARGUMENT that names the field.
  * - Handles are never reused: using a destroyed one is always an error.
  * - Only one thread at a time may use a denoiser. A call during another thread's call returns
