@@ -32,6 +32,7 @@ fg::Buffer addLintSpecular(fg::Graph& graph, const LintSpecularInputs& from, fg:
   sampleIfPresent("kDiffuseAlbedo", "albedo", inputs.albedo, true);
   sampleIfPresent("kDiffuseLight", "diffuse", from.diffuse, true);
   pass.specialize("kDistance", from.distances)
+      .specialize("kOwnAlbedo", from.ownAlbedo)
       .specialize("kNormalsInWorldSpace", inputs.conventions.normal == InputConventions::Space::World)
       .specialize("kMotionJittered", inputs.conventions.motionJittered);
   return pass.update("counters", counters);

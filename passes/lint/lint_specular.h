@@ -11,6 +11,7 @@ struct LintSpecularInputs {
   DenoiserInputs inputs;
   fg::Texture diffuse = {};  ///< Light of the diffuse lobe, a texel for every pixel; may be missing.
   bool distances = true;     ///< The light's alpha is a distance; if not, it only tells where there is a sample.
+  bool ownAlbedo = true;     ///< The specular albedo is the one of walr/specular_albedo.h, not the renderer's own.
 };
 
 /// Add a pass that counts what is wrong in specular light; `InputLinter` turns counts into text.

@@ -6,6 +6,8 @@
 writes to DIR, in the layout of samples/docs/sequences.md ("Blender Cycles"):
 
     noisy_FFFF.exr   1 sample per pixel (--spp), with the passes that the denoiser needs and those of whole pictures
+    distance_FFFF.exr
+                     how far reflected things are from the surface, if materials can write their roughness
     ref_FFFF.exr     the same frame with M samples per pixel (--reference-spp)
     cameras.json     the camera of every frame; those of frames from earlier runs are kept
 
@@ -43,6 +45,8 @@ PASSES = [
 # Cycles has no pass of it: materials write it.
 ROUGHNESS = "Roughness"
 LOBES = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC", "BSDF_GLASS"}
+# Shaders that let a ray pass, or combine others.
+PASSED = {"BSDF_TRANSPARENT", "MIX_SHADER", "ADD_SHADER"}
 
 
 def fail(message):
@@ -142,21 +146,23 @@ def set_up(scene, size):
         for name in PASSES:
             ask_for_pass(layer, f"use_pass_{name}")
         layer.cycles.denoising_store_passes = False
-    add_roughness(layers)
-    return [layer.name for layer in layers]
+    return layers
 
 
 def add_roughness(layers):
-    """Lets every material write the roughness of its glossy lobe, unless one has several or the scene has such a pass."""
+    """Lets every material write the roughness of its glossy lobe, unless one has several or the scene has such a pass.
+
+    Returns whether frames hold it.
+    """
     if any(aov.name == ROUGHNESS for layer in layers for aov in layer.aovs):
-        return
+        return True
     lobes = []
     for tree in (material.node_tree for material in bpy.data.materials if material.use_nodes):
         used = [node for node in tree.nodes if any(socket.is_linked for socket in node.outputs)]
         found = [node for node in used if node.type in LOBES]
         if len(found) > 1 or any(node.type == "GROUP" for node in used):
             print("warning: there will be no pass of roughness: a material has several glossy lobes, or a group of nodes")
-            return
+            return False
         lobes += [(tree, node.inputs["Roughness"]) for node in found]
     for tree, roughness in lobes:
         output = tree.nodes.new("ShaderNodeOutputAOV")
@@ -169,15 +175,123 @@ def add_roughness(layers):
     for layer in layers:
         aov = layer.aovs.add()
         aov.name, aov.type = ROUGHNESS, "VALUE"
+    return bool(lobes)
 
 
-def ask_for_pass(layer, setting):
+def show_distances(scene, layers):
+    """Turns the scene into one whose picture tells how far from a surface the things are that it reflects.
+
+    What the camera sees only reflects, as its glossy lobe does. What is reflected shines with one over the length of
+    the ray in red and with 1 in green, the sky with 1 in green only: red over green is the mean of one over the distance.
+    """
+    scene.cycles.max_bounces = 1
+    for thing in scene.objects:
+        if thing.type == "LIGHT":
+            thing.hide_render = True
+        elif hasattr(thing.data, "materials"):
+            give_material(thing)
+    for material in bpy.data.materials:
+        if not material.is_grease_pencil:
+            material.use_nodes = True
+            aim_no_rays_at(material)
+            reflect_only(material.node_tree)
+    scene.world = bpy.data.worlds.new("Distance")
+    scene.world.use_nodes = True
+    aim_no_rays_at(scene.world)
+    background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (0.0, 1.0, 0.0, 1.0)
+    for layer in layers:
+        layer.material_override = None
+        for name in PASSES:
+            ask_for_pass(layer, f"use_pass_{name}", name == "combined")
+
+
+def give_material(thing):
+    """Cycles shows a thing without a material in grey."""
+    if not thing.data.materials:
+        thing.data.materials.append(bpy.data.materials.new("Distance"))
+    for slot in thing.material_slots:
+        slot.material = slot.material or bpy.data.materials.new("Distance")
+
+
+def aim_no_rays_at(shining):
+    """Only reflected rays may find what shines: Cycles would weigh them against rays that it aims at a light."""
+    # Materials until Blender 3.4, later ones, worlds.
+    for setting, value in ("sample_as_light", False), ("emission_sampling", "NONE"), ("sampling_method", "NONE"):
+        if hasattr(shining.cycles, setting):
+            setattr(shining.cycles, setting, value)
+
+
+def reflect_only(tree):
+    """Replaces every shader of a material for show_distances, but those that let a ray pass."""
+    transparent = tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0]
+    for node in [each for each in tree.nodes if each.type == "OUTPUT_MATERIAL" and each.inputs["Volume"].is_linked]:
+        tree.links.remove(node.inputs["Volume"].links[0])
+        if not node.inputs["Surface"].is_linked:
+            tree.links.new(transparent, node.inputs["Surface"])
+    shaders = [(node, [link.to_socket for output in node.outputs if output.type == "SHADER" for link in output.links])
+               for node in tree.nodes if node.type not in PASSED]
+    path = tree.nodes.new("ShaderNodeLightPath")
+    shine = add_shine(tree, path.outputs["Ray Length"])
+    for node, targets in shaders:
+        if not targets:
+            continue
+        replaced = add_mix(tree, shine, add_lobe(tree, node) if node.type in LOBES else None)
+        tree.links.new(path.outputs["Is Camera Ray"], replaced.inputs["Fac"])
+        if "Alpha" in node.inputs:
+            replaced = add_mix(tree, transparent, replaced.outputs[0])
+            copy_input(tree, node.inputs["Alpha"], replaced.inputs["Fac"])
+        for target in targets:
+            tree.links.new(replaced.outputs[0], target)
+
+
+def add_shine(tree, length):
+    """Light of one over a length in red and of 1 in green."""
+    nearness = tree.nodes.new("ShaderNodeMath")
+    nearness.operation = "DIVIDE"
+    nearness.inputs[0].default_value = 1.0
+    tree.links.new(length, nearness.inputs[1])
+    colour = tree.nodes.new("ShaderNodeCombineXYZ")
+    colour.inputs["Y"].default_value = 1.0
+    tree.links.new(nearness.outputs[0], colour.inputs["X"])
+    shine = tree.nodes.new("ShaderNodeEmission")
+    tree.links.new(colour.outputs[0], shine.inputs["Color"])
+    return shine.outputs[0]
+
+
+def add_lobe(tree, node):
+    """A white lobe that is as rough as the one of the node."""
+    lobe = tree.nodes.new("ShaderNodeBsdfAnisotropic")
+    lobe.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    lobe.inputs["Anisotropy"].default_value = 0.0
+    copy_input(tree, node.inputs["Roughness"], lobe.inputs["Roughness"])
+    if node.inputs["Normal"].is_linked:
+        copy_input(tree, node.inputs["Normal"], lobe.inputs["Normal"])
+    return lobe.outputs[0]
+
+
+def add_mix(tree, first, second):
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(first, mix.inputs[1])
+    if second is not None:
+        tree.links.new(second, mix.inputs[2])
+    return mix
+
+
+def copy_input(tree, source, target):
+    if source.is_linked:
+        tree.links.new(source.links[0].from_socket, target)
+    else:
+        target.default_value = source.default_value
+
+
+def ask_for_pass(layer, setting, wanted=True):
     # The settings of passes that only Cycles has are its own.
     owners = [owner for owner in (layer, layer.cycles) if hasattr(owner, setting)]
     if not owners:
         print(f"warning: this version of Blender has no {setting}: composites will lack that pass")
     for owner in owners:
-        setattr(owner, setting, True)
+        setattr(owner, setting, wanted)
 
 
 def numbers(matrix):
@@ -272,31 +386,34 @@ class RemainingTime:
         return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
 
 
-def render_all(scene, output, arguments):
+def render_all(scene, output, arguments, layers, distances):
     jobs = []
     for frame in arguments.frames:
         jobs.append((frame, output / f"noisy_{frame:04d}.exr", arguments.spp, frame + 1))
         if arguments.reference_spp:
             jobs.append((frame, output / f"ref_{frame:04d}.exr", arguments.reference_spp, REFERENCE_SEED + frame))
-    existing = [file for _, file, _, _ in jobs if file.exists()]
+    # The last ones, because they change the scene. The seed is that of the light, for the same paths where it can be.
+    last = [(frame, output / f"distance_{frame:04d}.exr", arguments.spp, frame + 1)
+            for frame in arguments.frames if distances]
+    existing = [file for _, file, _, _ in jobs + last if file.exists()]
     for file in existing:
         print(f"{file.name}: already exists, skipped")
-    jobs = [job for job in jobs if job[1] not in existing]
-    remaining = RemainingTime([sample_count for _, _, sample_count, _ in jobs])
-    for number, (frame, file, sample_count, seed) in enumerate(jobs, 1):
+    jobs, last = ([job for job in some if job[1] not in existing] for some in (jobs, last))
+    remaining = RemainingTime([sample_count for _, _, sample_count, _ in jobs + last])
+    for number, (frame, file, sample_count, seed) in enumerate(jobs + last, 1):
+        if number == len(jobs) + 1:
+            show_distances(scene, layers)
         start = time.monotonic()
         scene.frame_set(frame)
         render(scene, file, sample_count, seed)
         remaining.finished(sample_count, time.monotonic() - start)
-        print(f"{file.name}: rendered, {number} of {len(jobs)}, {remaining.text()} left", flush=True)
+        print(f"{file.name}: rendered, {number} of {len(jobs) + len(last)}, {remaining.text()} left", flush=True)
 
 
-def denoise_command(output, layers, moving):
-    command = ["walr", "denoise", str(output), "--output", f"{output}-denoised", "--composite", "--png"]
-    if moving:
-        command += ["--motion-depth", "found"]
+def denoise_command(output, layers, options):
+    command = ["walr", "denoise", str(output), "--output", f"{output}-denoised", "--composite", "--png", *options]
     if len(layers) > 1:
-        command += ["--view-layer", layers[0]]
+        command += ["--view-layer", layers[0].name]
     return shlex.join(command)
 
 
@@ -305,15 +422,22 @@ def main():
     scene = bpy.context.scene
     choose_camera(scene, arguments.camera)
     layers = set_up(scene, arguments.size)
+    distances = add_roughness(layers)
     if len(layers) > 1:
-        print(f"warning: the scene has several view layers ({', '.join(layers)}): walr denoise reads one at a time, "
-              "which --view-layer names")
+        print(f"warning: the scene has several view layers ({', '.join(layer.name for layer in layers)}): walr denoise "
+              "reads one at a time, which --view-layer names")
     output = arguments.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
     moving = name_moving_objects(scene, arguments.frames)
     write_cameras(output / "cameras.json", scene, arguments.frames)
-    render_all(scene, output, arguments)
-    print(f"Finished. Denoise the frames with\n    {denoise_command(output, layers, moving)}", flush=True)
+    render_all(scene, output, arguments, layers, distances)
+    reflections = ["--light", "all"]
+    found = ["--motion-depth", "found"]
+    options = found if moving else reflections if distances else []
+    print(f"Finished. Denoise the frames with\n    {denoise_command(output, layers, options)}", flush=True)
+    if moving and distances:
+        print("or, with reflections, but with more noise on objects that move towards the camera or away from it,\n"
+              f"    {denoise_command(output, layers, reflections)}", flush=True)
 
 
 main()

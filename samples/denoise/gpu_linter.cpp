@@ -108,7 +108,8 @@ void GpuLinter::State::declare(const Frame& frame) {
     counts = addLintSpecular(graph,
                              {.inputs = specular,
                               .diffuse = layout.conventions.light.fullSize() ? inputs.lighting : fg::Texture{},
-                              .distances = !frame.specularDistance.empty()},
+                              .distances = !frame.specularDistance.empty(),
+                              .ownAlbedo = layout.ownSpecularAlbedo},
                              counts);
   }
   graph.exported(counts, fg::vk::kReadable);

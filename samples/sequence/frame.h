@@ -74,7 +74,7 @@ struct Frame {
   /// requested, and if the files hold none.
   Image nonDiffuse;
   /// 3 components: light that the specular lobe reflects, divided by `specularAlbedo`. It and the next three images are
-  /// empty unless requested, and if the files hold none. Frames of Cycles have no distance, and may have no roughness.
+  /// empty unless requested, and if the files hold none. Frames of Cycles may lack distance and roughness.
   Image specular;
   /// 1 component: distance from the surface to the first hit along the specular path, scene units; `kBackgroundDepth`
   /// if it met nothing, 0 where there was no sample.

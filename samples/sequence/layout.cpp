@@ -44,7 +44,8 @@ constexpr std::array kProjectSpecular = {
     Plane{Role::SpecularAlbedo, "SpecularAlbedo", "RGB"},
     Plane{Role::SpecularMotion, "SpecularMotion", "XYZ", true},
 };
-// Cycles has no pass of the distance, and one of roughness only if the scene's materials write it.
+// Cycles has no pass of the distance, which lies in files of its own, and one of roughness only if the scene's
+// materials write it.
 constexpr std::array kCyclesSpecular = {
     Plane{Role::Specular, "GlossDir", "RGB"},
     Plane{Role::Specular, "GlossInd", "RGB"},
@@ -57,6 +58,7 @@ constexpr std::array kCyclesSpecular5 = {
     Plane{Role::SpecularAlbedo, "Glossy Color", "RGB"},
     Plane{Role::Roughness, "Roughness", "X", true},
 };
+constexpr Plane kDistances = {Role::SpecularDistance, "Combined", "RG"};
 constexpr std::array kProjectAdded = {AddedLight{&Frame::nonDiffuse, "Specular", "SpecularAlbedo", false}};
 // The emission pass of Blender holds only surfaces; the sky has a pass of its own.
 constexpr std::array kCyclesAdded = {
@@ -274,7 +276,9 @@ const Layout& cyclesLayout() {
                              glm::vec2(1.0F, -1.0F),
                              {Role::ObjectId, "IndexOB", "X"},
                              kCyclesAdded,
-                             kCyclesSpecular};
+                             kCyclesSpecular,
+                             true,
+                             false};
   return layout;
 }
 
@@ -322,6 +326,7 @@ std::string RecognizedLayout::plane(Light light) const {
 }
 
 bool RecognizedLayout::hasSpecular(Role role) const {
+  if (role == Role::SpecularDistance && distanceFiles) return true;
   return std::ranges::find(specular, role, &Plane::role) != specular.end();
 }
 
@@ -393,8 +398,8 @@ void requireChannels(const ExrReader& file, const RecognizedLayout& layout, cons
         ": no specular light with distances and roughness (Specular.R, SpecularDistance.Z, Roughness.Y and "
         "others of walr's own layout; layout: " +
         std::string(layout.layout->name) +
-        "). Render with 'walr render --specular', name them in a map of channels, or denoise diffuse light. Channels "
-        "found: " +
+        "). Render with 'walr render --specular' or, in Blender, with samples/blender/export_frames.py, name them in a "
+        "map of channels, or denoise diffuse light. Channels found: " +
         join(file.channels()));
   }
   std::vector<Plane> planes;
@@ -465,6 +470,25 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish&
     for (const Plane& plane : layout.specular) addPart(parts.at(plane.name), imageOf(frame, plane.role));
   }
   for (const AddedLight& light : added) addLight(light, parts, frame.*light.image);
+}
+
+void requireDistanceChannels(const ExrReader& file, const RecognizedLayout& layout) {
+  requirePlanes(file, layout, std::span(&kDistances, 1),
+                "A file whose name starts with 'distance' is one of distances; rename it if it is not.");
+}
+
+void readDistances(ExrReader& file, const RecognizedLayout& layout, const PixelRect& place, Frame& frame) {
+  file.requireBlocks();
+  Image sums;
+  std::vector<ExrReader::Target> targets;
+  addTargets(targets, layout, kDistances, sums, place, 0.0F);
+  file.read(targets, place);
+  findNonFinite(file.path(), targets, false, frame.nonFinite);
+  frame.specularDistance = Image(place.size.x, place.size.y, 1);
+  for (std::size_t i = 0; i < sums.pixelCount(); ++i) {
+    const float nearness = sums.pixel(i)[0], reflected = sums.pixel(i)[1];
+    frame.specularDistance.values()[i] = nearness > 0.0F ? reflected / nearness : kBackgroundDepth;
+  }
 }
 
 Reference readReference(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted,

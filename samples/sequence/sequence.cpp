@@ -123,6 +123,7 @@ void Sequence::scan() {
   }
   FilesByNumber frames;
   FilesByNumber references;
+  FilesByNumber distances;
   fs::directory_iterator files(folder_, error);
   if (error) throw InputError("cannot read the folder " + folder_.string() + ": " + error.message());
   for (const fs::directory_entry& file : files) {
@@ -132,7 +133,8 @@ void Sequence::scan() {
       if (isNegative(stem)) {
         throw InputError(file.path().string() + " has a negative frame number; number the frames from 0 or more on");
       }
-      addFile(stem.starts_with("ref") ? references : frames, *number, file.path());
+      FilesByNumber& kind = stem.starts_with("ref") ? references : stem.starts_with("distance") ? distances : frames;
+      addFile(kind, *number, file.path());
     }
   }
   if (frames.empty()) {
@@ -158,6 +160,7 @@ void Sequence::scan() {
     if (const auto reference = references.find(number); reference != references.end()) {
       entry.reference = reference->second;
     }
+    if (const auto found = distances.find(number); found != distances.end()) entry.distances = found->second;
     entries_.push_back(std::move(entry));
   }
 }
@@ -168,6 +171,7 @@ void Sequence::checkHeaders() {
     const ExrReader file(entry.file, options_.stereoView);
     if (layout_.layout == nullptr) {
       layout_ = layoutOf(file);
+      chooseDistances();
       lossy_ = file.lossy();
       denoiserLayout_ =
           options_.motionDepth ? withMotionDepth(*layout_.layout, *options_.motionDepth, entry.file) : *layout_.layout;
@@ -180,6 +184,11 @@ void Sequence::checkHeaders() {
     }
     requireChannels(file, layout_, options_.light);
     checkDisplayWindow(file);
+    if (layout_.distanceFiles) {
+      const ExrReader distances(entry.distances, options_.stereoView);
+      requireDistanceChannels(distances, layout_);
+      checkDisplayWindow(distances);
+    }
     entry.dataWindow = file.dataWindow();
     place_ = united(place_, entry.dataWindow);
     if (!entry.reference.empty()) {
@@ -199,6 +208,22 @@ void Sequence::checkHeaders() {
   }
   placeImages();
   if (!options_.keptLight.everyPixel()) keepSomeLight();
+}
+
+void Sequence::chooseDistances() {
+  const auto has = [](const Entry& entry) { return !entry.distances.empty(); };
+  const auto with = std::ranges::find_if(entries_, has);
+  const bool wanted = options_.light.specular != SpecularWish::Nothing && !layout_.specular.empty();
+  layout_.distanceFiles = wanted && layout_.layout->distanceFiles && with != entries_.end();
+  if (!layout_.distanceFiles) {
+    for (Entry& entry : entries_) entry.distances.clear();
+    return;
+  }
+  if (const auto without = std::ranges::find_if_not(entries_, has); without != entries_.end()) {
+    throw InputError(with->distances.string() + " has distances, but there are none for frame " +
+                     std::to_string(without->number) +
+                     ". Export the missing frames again, or remove all files of distances.");
+  }
 }
 
 RecognizedLayout Sequence::layoutOf(const ExrReader& file) const {
@@ -300,6 +325,11 @@ Frame Sequence::read(std::size_t index) const {
   ExrReader file(entry.file, options_.stereoView);
   checkDisplayWindow(file);
   readFrame(file, layout_, options_.light, place_, frame);
+  if (!entry.distances.empty()) {
+    ExrReader distances(entry.distances, options_.stereoView);
+    checkDisplayWindow(distances);
+    readDistances(distances, layout_, place_, frame);
+  }
   if (layout_.map != nullptr) convertByMap(*layout_.map, frame);
   if (!options_.keptLight.everyPixel() && options_.light.indirect) {
     clearUnsampled(frame.indirect, frame.light, frame.lightOffset);

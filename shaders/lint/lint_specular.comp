@@ -20,6 +20,7 @@ layout(constant_id = 3) const bool kDiffuseAlbedo = true;
 layout(constant_id = 4) const bool kDiffuseLight = true;
 layout(constant_id = 5) const bool kNormalsInWorldSpace = false;
 layout(constant_id = 6) const bool kMotionJittered = true;
+layout(constant_id = 7) const bool kOwnAlbedo = true;  // The albedo depends on roughness as walrSpecularAlbedo does.
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform texture2D lighting;
@@ -195,10 +196,8 @@ void main() {
     countValues(at);
     countPair(at, p + ivec2(1, 0));
     countPair(at, p + ivec2(0, 1));
-    if (kDistance && kRoughness) {
-      countRoughness(at);
-      countReflection(at);
-    }
+    if (kRoughness && kOwnAlbedo) countRoughness(at);
+    if (kRoughness && kDistance) countReflection(at);
     countMetal(at);
   }
   addCounts();

@@ -208,6 +208,14 @@ TEST(RenderSequence, WritesSpecularLightThatPassesTheLinter) {
     linter.add(spoiled);
     EXPECT_EQ(namesOf(linter.findings()), spoilt.names);
   }
+  // Another albedo does not tell how roughness is written.
+  Layout otherAlbedo = projectLayout();
+  otherAlbedo.ownSpecularAlbedo = false;
+  Frame squared = frame;
+  eachRoughness(squared, [](float r) { return r * r; });
+  GpuLinter linter(device, sequence.extent(), otherAlbedo);
+  linter.add(squared);
+  EXPECT_EQ(namesOf(linter.findings()), std::vector<std::string>{});
   device.refuseMessages();
   // A folder with the light is not continued without it.
   options.specular = false;

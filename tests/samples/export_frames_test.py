@@ -51,25 +51,155 @@ class Objects(list):
 class Made(list):
     """A collection of Blender that makes its members."""
 
-    def add(self, *_):
-        self.append(types.SimpleNamespace(inputs={"Value": types.SimpleNamespace(default_value=0.0)}, outputs=[]))
+    def __init__(self, kind):
+        super().__init__()
+        self.kind = kind
+
+    def new(self, *arguments):
+        self.append(self.kind(*arguments))
         return self[-1]
 
-    new = add
+    add = new
 
 
-def lobe(roughness, source=None):
-    """A node of a glossy lobe whose roughness is a number or comes from another node."""
-    socket = types.SimpleNamespace(default_value=roughness, is_linked=source is not None,
-                                   links=[types.SimpleNamespace(from_socket=source)])
-    return types.SimpleNamespace(type="BSDF_PRINCIPLED", inputs={"Roughness": socket},
-                                 outputs=[types.SimpleNamespace(is_linked=True)])
+class Socket(types.SimpleNamespace):
+    @property
+    def is_linked(self):
+        return bool(self.links)
 
 
-def material(*nodes):
-    links = []
-    made = types.SimpleNamespace(new=lambda source, target: links.append((source, target)), all=links)
-    return types.SimpleNamespace(use_nodes=True, node_tree=types.SimpleNamespace(nodes=Made(nodes), links=made))
+class Sockets(list):
+    """Sockets of a node by number or name."""
+
+    def __init__(self, node, names):
+        super().__init__(Socket(node=node, name=name, type="SHADER" if name in SHADERS else "VALUE", default_value=0.0, links=[])
+                         for name in names)
+
+    def __getitem__(self, key):
+        return super().__getitem__(key) if isinstance(key, int) else next(each for each in self if each.name == key)
+
+    def __contains__(self, name):
+        return any(each.name == name for each in self)
+
+
+# Names of sockets that hold shaders, and the nodes by their type: inputs and outputs.
+SHADERS = {"Shader", "BSDF", "Emission", "Surface", "Volume", "Background"}
+NODES = {
+    "ShaderNodeBsdfTransparent": ("BSDF_TRANSPARENT", ["Color"], ["BSDF"]),
+    "ShaderNodeLightPath": ("LIGHT_PATH", [], ["Is Camera Ray", "Ray Length"]),
+    "ShaderNodeMath": ("MATH", ["Value", "Value"], ["Value"]),
+    "ShaderNodeCombineXYZ": ("COMBXYZ", ["X", "Y", "Z"], ["Vector"]),
+    "ShaderNodeEmission": ("EMISSION", ["Color", "Strength"], ["Emission"]),
+    "ShaderNodeBsdfAnisotropic": ("BSDF_ANISOTROPIC", ["Color", "Roughness", "Anisotropy", "Normal"], ["BSDF"]),
+    "ShaderNodeMixShader": ("MIX_SHADER", ["Fac", "Shader", "Shader"], ["Shader"]),
+    "ShaderNodeBsdfDiffuse": ("BSDF_DIFFUSE", ["Color"], ["BSDF"]),
+    "ShaderNodeBsdfPrincipled": ("BSDF_PRINCIPLED", ["Roughness", "Normal", "Alpha"], ["BSDF"]),
+    "ShaderNodeOutputMaterial": ("OUTPUT_MATERIAL", ["Surface", "Volume"], []),
+    "ShaderNodeVolumeScatter": ("VOLUME_SCATTER", [], ["Volume"]),
+    "ShaderNodeTexture": ("TEX_IMAGE", [], ["Color"]),
+    "ShaderNodeBackground": ("BACKGROUND", ["Color"], ["Background"]),
+    "ShaderNodeOutputAOV": ("OUTPUT_AOV", ["Value"], []),
+}
+
+
+class Node(types.SimpleNamespace):
+    def __init__(self, kind):
+        super().__init__()
+        self.type, inputs, outputs = NODES[kind]
+        self.inputs, self.outputs = Sockets(self, inputs), Sockets(self, outputs)
+
+
+class Links:
+    def new(self, source, target):
+        for link in target.links:
+            self.remove(link)
+        link = types.SimpleNamespace(from_socket=source, to_socket=target)
+        source.links.append(link)
+        target.links.append(link)
+
+    def remove(self, link):
+        link.from_socket.links.remove(link)
+        link.to_socket.links.remove(link)
+
+
+class Tree:
+    def __init__(self):
+        self.nodes, self.links = Made(Node), Links()
+
+    def add(self, kind, target=None, **values):
+        """A node whose first output is linked to a socket, with values or links as inputs."""
+        node = self.nodes.new(f"ShaderNode{kind}")
+        for name, value in values.items():
+            if isinstance(value, Socket):
+                self.links.new(value, node.inputs[name])
+            else:
+                node.inputs[name].default_value = value
+        if target is not None:
+            self.links.new(node.outputs[0], target)
+        return node
+
+
+class Material(types.SimpleNamespace):
+    """Without nodes, as new ones are. A user gets a Principled BSDF with them."""
+
+    def __init__(self, name="", old=False):
+        setting = {"sample_as_light": True} if old else {"emission_sampling": "AUTO"}
+        super().__init__(name=name, is_grease_pencil=False, cycles=types.SimpleNamespace(**setting), node_tree=None)
+
+    @property
+    def use_nodes(self):
+        return self.node_tree is not None
+
+    @use_nodes.setter
+    def use_nodes(self, _):
+        if self.node_tree is None:
+            self.node_tree = Tree()
+            self.surface = self.node_tree.add("OutputMaterial").inputs["Surface"]
+            self.node_tree.add("BsdfPrincipled", self.surface, Roughness=0.5, Alpha=1.0)
+
+
+class World(types.SimpleNamespace):
+    def __init__(self, name):
+        super().__init__(name=name, use_nodes=False, cycles=types.SimpleNamespace(sampling_method="AUTOMATIC"),
+                         node_tree=Tree())
+        self.node_tree.add("Background")
+
+
+def material(**values):
+    """A Principled BSDF."""
+    made = Material()
+    made.use_nodes = True
+    for name, value in values.items():
+        made.node_tree.nodes[-1].inputs[name].default_value = value
+    return made
+
+
+def shade(socket, camera, length):
+    """What a ray meets at a shader's input, as a list of weights and closures."""
+    if not socket.links:
+        return []
+    source = socket.links[0].from_socket
+    node = source.node
+
+    def value(target):
+        if not target.links:
+            return target.default_value
+        origin = target.links[0].from_socket
+        if origin.node.type == "LIGHT_PATH":
+            return {"Is Camera Ray": float(camera), "Ray Length": length}[origin.name]
+        if origin.node.type == "MATH":
+            assert origin.node.operation == "DIVIDE"
+            return value(origin.node.inputs[0]) / value(origin.node.inputs[1])
+        if origin.node.type == "COMBXYZ":
+            return tuple(map(value, origin.node.inputs))
+        return origin.node.type
+
+    if node.type == "MIX_SHADER":
+        share = value(node.inputs["Fac"])
+        parts = [(1.0 - share, node.inputs[1]), (share, node.inputs[2])]
+        return [(part * weight, closure) for part, shader in parts if part
+                for weight, closure in shade(shader, camera, length)]
+    return [(1.0, (node.type, *(value(each) for each in node.inputs if each.name in ("Roughness", "Anisotropy", "Color"))))]
 
 
 class Refusing(types.SimpleNamespace):
@@ -85,17 +215,20 @@ def layer(name, direct_volume):
     passes = ["combined", "z", "normal", "vector", "emit", "environment"]
     passes += [f"{light}_{part}" for light in ("diffuse", "glossy", "transmission") for part in ("direct", "indirect", "color")]
     volumes = {"use_pass_volume_direct": False, "use_pass_volume_indirect": False} if direct_volume else {}
-    return types.SimpleNamespace(name=name, use=True, aovs=Made(), **{f"use_pass_{p}": False for p in passes},
+    return types.SimpleNamespace(name=name, use=True, aovs=Made(types.SimpleNamespace), material_override="clay", **{f"use_pass_{p}": False for p in passes},
                                  cycles=types.SimpleNamespace(denoising_store_passes=True, **volumes))
 
 
 def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materials=()):
     """The module bpy and its scene."""
-    scene = types.SimpleNamespace(frame=0, rendered=[], cycles=types.SimpleNamespace())
+    scene = types.SimpleNamespace(frame=0, rendered=[], asked=[], cycles=types.SimpleNamespace())
     scene.frame_set = lambda frame: setattr(scene, "frame", frame)
     lens = types.SimpleNamespace(type="PERSP", dof=types.SimpleNamespace(use_dof=False))
     camera = Thing(name="Camera", type="CAMERA", data=lens, scene=scene, moves=True)
-    scene.objects = Objects([camera, Thing(name="Ball", type="MESH", scene=scene, moves=moves)])
+    ball = types.SimpleNamespace(materials=[])
+    lamp = Thing(name="Lamp", type="LIGHT", data=None, scene=scene, moves=False, hide_render=False)
+    scene.objects = Objects([camera, lamp, Thing(name="Ball", type="MESH", data=ball, scene=scene, moves=moves,
+                                                 material_slots=[types.SimpleNamespace(material=None)])])
     scene.camera = camera
     settings = Refusing(media_type="IMAGE", use_exr_interleave=False) if five else types.SimpleNamespace()
     scene.render = types.SimpleNamespace(resolution_x=64, resolution_y=36, pixel_aspect_x=1, pixel_aspect_y=1,
@@ -105,11 +238,14 @@ def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materia
     def render(write_still):
         assert write_still
         scene.rendered.append((scene.frame, scene.cycles.samples, scene.cycles.seed))
+        scene.asked.append({name for name, value in vars(scene.view_layers[0]).items() if name.startswith("use_pass_") and value})
         pathlib.Path(scene.render.filepath).write_text("pixels", encoding="utf-8")
 
     bpy = types.ModuleType("bpy")
     bpy.context = types.SimpleNamespace(scene=scene, evaluated_depsgraph_get=lambda: None)
-    bpy.data = types.SimpleNamespace(materials=materials)
+    made = Made(Material)
+    made.extend(materials)
+    bpy.data = types.SimpleNamespace(materials=made, worlds=Made(World))
     bpy.ops = types.SimpleNamespace(render=types.SimpleNamespace(render=render))
     return bpy, scene
 
@@ -148,22 +284,97 @@ class ExportFrames(unittest.TestCase):
         self.assertIn("no use_pass_volume_direct", self.run_script(bpy, "--frames", "1"))
 
     def test_materials_write_their_roughness(self):
-        bpy, scene = blender(materials=[material(lobe(0.25)), material(lobe(0.0, "a texture"))])
+        number, texture = material(Roughness=0.25), material()
+        tree = texture.node_tree
+        image = tree.add("Texture", tree.nodes[-1].inputs["Roughness"])
+        bpy, scene = blender(materials=[number, texture])
         self.assertNotIn("roughness", self.run_script(bpy, "--frames", "1"))
-        number, texture = (each.node_tree for each in bpy.data.materials)
-        for tree in number, texture:
-            self.assertEqual(tree.nodes[-1].name, "Roughness")
-        self.assertEqual(number.nodes[-1].inputs["Value"].default_value, 0.25)
-        self.assertEqual(texture.links.all, [("a texture", texture.nodes[-1].inputs["Value"])])
+        for written in number, texture:
+            [output] = [node for node in written.node_tree.nodes if node.type == "OUTPUT_AOV"]
+            self.assertEqual(output.name, "Roughness")
+            if written is number:
+                self.assertEqual(output.inputs["Value"].default_value, 0.25)
+            else:
+                self.assertIs(output.inputs["Value"].links[0].from_socket, image.outputs[0])
         self.assertEqual([(aov.name, aov.type) for aov in scene.view_layers[0].aovs], [("Roughness", "VALUE")])
-        self.run_script(bpy, "--frames", "2")
-        self.assertEqual(len(number.nodes), 2)
 
-    def test_several_lobes_have_no_roughness(self):
-        bpy, scene = blender(materials=[material(lobe(0.25)), material(lobe(0.25), lobe(0.5))])
+    def test_a_pass_of_roughness_is_left_as_it_is(self):
+        bpy, scene = blender(materials=[material(Roughness=0.25)])
+        scene.view_layers[0].aovs.append(types.SimpleNamespace(name="Roughness", type="VALUE"))
+        self.run_script(bpy, "--frames", "1")
+        self.assertEqual(len(scene.view_layers[0].aovs), 1)
+        self.assertNotIn("OUTPUT_AOV", {node.type for node in bpy.data.materials[0].node_tree.nodes})
+
+    def test_several_lobes_have_neither_roughness_nor_distances(self):
+        several = material(Roughness=0.25)
+        tree = several.node_tree
+        first = tree.nodes[-1].outputs[0]
+        mix = tree.add("MixShader", several.surface, Fac=0.5)
+        tree.links.new(first, mix.inputs[1])
+        tree.add("BsdfPrincipled", mix.inputs[2])
+        before = list(tree.nodes)
+        bpy, scene = blender(materials=[material(Roughness=0.25), several])
         self.assertIn("no pass of roughness", self.run_script(bpy, "--frames", "1"))
         self.assertEqual(scene.view_layers[0].aovs, [])
-        self.assertEqual(len(bpy.data.materials[0].node_tree.nodes), 1)
+        self.assertEqual(tree.nodes, before)
+        self.assertEqual([file.name for file in sorted(self.output.iterdir())], ["cameras.json", "noisy_0001.exr"])
+
+    def test_distances_come_last(self):
+        bpy, scene = blender(materials=[material(Roughness=0.25)])
+        text = self.run_script(bpy, "--frames", "4-5", "--spp", "2", "--reference-spp", "64")
+        self.assertIn("distance_0005.exr: rendered, 6 of 6, 0:00 left", text)
+        self.assertEqual([(frame, count) for frame, count, _ in scene.rendered],
+                         [(4, 2), (4, 64), (5, 2), (5, 64), (4, 2), (5, 2)])
+        seeds = [seed for _, _, seed in scene.rendered]
+        self.assertEqual((seeds[4], seeds[5]), (seeds[0], seeds[2]))
+        self.assertEqual(scene.asked[4:], [{"use_pass_combined"}] * 2)
+        self.assertGreater(len(scene.asked[3]), 10)
+        self.assertTrue(text.rstrip().endswith("--composite --png --light all"), text)
+        again, scene = blender(materials=[material(Roughness=0.25)])
+        self.assertIn("distance_0004.exr: already exists, skipped", self.run_script(again, "--frames", "4-6"))
+        self.assertEqual([frame for frame, _, _ in scene.rendered], [6, 6])
+
+    def test_distances_are_light_of_what_is_reflected(self):
+        plain = material(Roughness=0.25, Alpha=1.0)
+        cutout = material(Roughness=0.75, Alpha=0.25)
+        panes = material(Roughness=0.0, Alpha=1.0)  # Half of it glass, half a hole.
+        tree = panes.node_tree
+        pane = tree.nodes[-1].outputs[0]
+        hole = tree.add("MixShader", panes.surface, Fac=0.5)
+        tree.links.new(pane, hole.inputs[1])
+        tree.add("BsdfTransparent", hole.inputs[2])
+        matte = Material()
+        matte.use_nodes = True
+        matte.node_tree.add("BsdfDiffuse", matte.surface)
+        fog = Material(old=True)
+        fog.use_nodes = True
+        fog.node_tree.links.remove(fog.surface.links[0])
+        fog.node_tree.add("VolumeScatter", fog.surface.node.inputs["Volume"])
+        bpy, scene = blender(materials=[plain, cutout, panes, matte, fog])
+        self.run_script(bpy, "--frames", "1")
+
+        def seen(shown, camera):
+            return {closure[0]: (weight, *closure[1:]) for weight, closure in shade(shown.surface, camera, 4.0)}
+
+        white = (1.0, 1.0, 1.0, 1.0)
+        self.assertEqual(seen(plain, True), {"BSDF_ANISOTROPIC": (1.0, white, 0.25, 0.0)})
+        self.assertEqual(seen(plain, False), {"EMISSION": (1.0, (0.25, 1.0, 0.0))})
+        self.assertEqual(seen(cutout, True), {"BSDF_ANISOTROPIC": (0.25, white, 0.75, 0.0), "BSDF_TRANSPARENT": (0.75, 0.0)})
+        self.assertEqual(seen(cutout, False), {"EMISSION": (0.25, (0.25, 1.0, 0.0)), "BSDF_TRANSPARENT": (0.75, 0.0)})
+        self.assertEqual(seen(panes, False), {"EMISSION": (0.5, (0.25, 1.0, 0.0)), "BSDF_TRANSPARENT": (0.5, 0.0)})
+        self.assertEqual(seen(matte, True), {})
+        self.assertEqual(seen(matte, False), seen(plain, False))
+        self.assertEqual(seen(fog, False), {"BSDF_TRANSPARENT": (1.0, 0.0)})
+        self.assertFalse(fog.surface.node.inputs["Volume"].is_linked)
+        # Lamps, the world, and a ball without a material.
+        lamp, ball = scene.objects[1:]
+        self.assertTrue(lamp.hide_render)
+        self.assertEqual(seen(ball.material_slots[0].material, False), seen(plain, False))
+        self.assertEqual(scene.world.node_tree.nodes[0].inputs["Color"].default_value, (0.0, 1.0, 0.0, 1.0))
+        self.assertEqual((plain.cycles.emission_sampling, fog.cycles.sample_as_light, scene.world.cycles.sampling_method),
+                         ("NONE", False, "NONE"))
+        self.assertEqual(scene.cycles.max_bounces, 1)
+        self.assertIsNone(scene.view_layers[0].material_override)
 
     def test_shows_the_remaining_time_and_the_command(self):
         bpy, scene = blender()
@@ -180,6 +391,12 @@ class ExportFrames(unittest.TestCase):
         text = self.run_script(bpy, "--frames", "1-2")
         self.assertIn("objects move (Ball)", text)
         self.assertTrue(text.rstrip().endswith("--motion-depth found --view-layer 'Near things'"), text)
+
+    def test_names_the_command_for_reflections_beside_moving_objects(self):
+        bpy, _ = blender(moves=True, materials=[material(Roughness=0.25)])
+        text = self.run_script(bpy, "--frames", "1-2")
+        self.assertIn("--motion-depth found\nor, with reflections", text)
+        self.assertTrue(text.rstrip().endswith("--light all"), text)
 
     def test_an_object_that_returns_has_moved(self):
         bpy, scene = blender(moves=True)

@@ -1,5 +1,8 @@
-// Glossy light of Cycles as specular light: without a distance, and with roughness if the files hold it.
+// Glossy light of Cycles as specular light: with roughness if the files hold it, and with distances if there are files
+// of them.
 #include <algorithm>
+#include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -84,6 +87,74 @@ TEST_F(GlossSequence, IsReadOnlyIfBothLightsAreThere) {
   const Frame frame = open(options).read(0);
   EXPECT_TRUE(frame.specular.empty());
   EXPECT_TRUE(frame.specularAlbedo.empty());
+}
+
+/// Files of distances, as `blender/export_frames.py` writes them.
+class GlossDistances : public GlossSequence {
+ protected:
+  GlossDistances() {
+    files.writeCameras(0, 1);
+    files.writeReference(0, addGloss);
+    for (const int number : {0, 1}) {
+      files.writeFrame(number, [](Channels& channels) {
+        addGloss(channels);
+        channels["Roughness.X"] = Image(6, 4, 1);
+      });
+      writeDistances(number);
+    }
+    options.light = {.indirect = false, .specular = SpecularWish::Denoised};
+  }
+
+  [[nodiscard]] std::filesystem::path distanceFile(int number) const {
+    return files.folder() / ("distance_000" + std::to_string(number) + ".exr");
+  }
+
+  // One of two samples met something at 4 units in the pixel (2, 2); in (3, 2) both left the scene; in (4, 2) none left
+  // the surface.
+  void writeDistances(int number, const test::Edit& edit = {}) const {
+    Channels channels;
+    addColours(channels, "Combined", {0.0F, 0.0F, 0.0F});
+    channels["Combined.R"].at(2, 2, 0) = 0.125F;
+    channels["Combined.G"].at(2, 2, 0) = 0.5F;
+    channels["Combined.G"].at(3, 2, 0) = 1.0F;
+    if (edit) edit(channels);
+    test::writeChannels(distanceFile(number), channels);
+  }
+};
+
+TEST_F(GlossDistances, AreReadWithTheLight) {
+  const Sequence sequence = open(options);
+  EXPECT_TRUE(sequence.layout().hasSpecular(Role::SpecularDistance));
+  const Frame frame = sequence.read(1);
+  EXPECT_EQ(frame.specularDistance.at(2, 2, 0), 4.0F);
+  EXPECT_EQ(frame.specularDistance.at(3, 2, 0), kBackgroundDepth);
+  EXPECT_EQ(frame.specularDistance.at(4, 2, 0), kBackgroundDepth);
+  EXPECT_TRUE(open().read(1).specularDistance.empty());
+}
+
+TEST_F(GlossDistances, AreNeededToDenoiseTheLight) {
+  std::filesystem::remove(distanceFile(1));
+  expectRefused({"distance_0000.exr", "frame 1", "Export the missing frames"}, options);
+  std::filesystem::remove(distanceFile(0));
+  writeDistances(1);
+  expectRefused({"distance_0001.exr", "frame 0"}, options);
+  std::filesystem::remove(distanceFile(1));
+  expectRefused({"noisy_0000.exr", "distances", "export_frames.py"}, options);
+  options.light.specular = SpecularWish::IfHeld;
+  EXPECT_TRUE(open(options).read(0).specularDistance.empty());
+}
+
+TEST_F(GlossDistances, MustFitTheFrames) {
+  writeDistances(1, [](Channels& channels) { channels.erase("Combined.G"); });
+  expectRefused({"distance_0001.exr", "missing channel Combined.G", "'distance'"}, options);
+  writeDistances(1, [](Channels& channels) {
+    for (auto& [name, image] : channels) image = Image(5, 4, 1);
+  });
+  expectRefused({"distance_0001.exr", "5 x 4"}, options);
+  writeDistances(
+      1, [](Channels& channels) { channels["Combined.R"].at(1, 1, 0) = std::numeric_limits<float>::infinity(); });
+  fg::test::expectError<InputError>([&] { static_cast<void>(open(options).read(1)); },
+                                    {"distance_0001.exr", "Combined.R", "(1, 1)"});
 }
 
 }  // namespace
