@@ -59,7 +59,8 @@ struct DenoiseOptions {
   SequenceOptions sequence;
 };
 
-void describeInput(std::ostream& stream, const std::filesystem::path& input, const Sequence& sequence) {
+void describeInput(std::ostream& stream, const std::filesystem::path& input, const Sequence& sequence,
+                   const LightWish& wanted) {
   const auto& entries = sequence.entries();
   const RecognizedLayout& layout = sequence.layout();
   stream << "input: " << input.string() << ", frames " << entries.front().number << " to " << entries.back().number
@@ -69,6 +70,11 @@ void describeInput(std::ostream& stream, const std::filesystem::path& input, con
          << (sequence.hasReferences() ? "with references" : "no references: no errors are measured") << '\n';
   if (const LightPattern& light = sequence.denoiserLayout().conventions.light; !light.everyPixel()) {
     stream << "sparse light: one sample in " << light.columns << " x " << light.rows << " pixels\n";
+  }
+  if (wanted.specular == SpecularWish::Denoised && !layout.hasSpecular(Role::SpecularDistance)) {
+    stream
+        << "specular light: the frames have no distances to what is reflected, which is taken to be far away, so that "
+           "mirrors are less sharp\n";
   }
   if (sequence.place() != sequence.displayWindow()) {
     const PixelRect& place = sequence.place();
@@ -292,7 +298,7 @@ void denoise(DenoiseOptions& options) {
   refuseHoles(options, lights, sequence);
   prepareOutputDirectory(options.output.directory);
   if (!options.json.empty()) prepareOutputFile(options.json);
-  describeInput(std::cout, options.input, sequence);
+  describeInput(std::cout, options.input, sequence, options.sequence.light);
   if (options.average > 1) {
     std::cout << "pictures: " << pictures.width << " x " << pictures.height << ", means over " << options.average
               << " x " << options.average << " pixels\n";

@@ -391,12 +391,11 @@ RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const Chann
 
 void requireChannels(const ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted) {
   if (wanted.specular == SpecularWish::Denoised &&
-      !(layout.hasSpecular(Role::Specular) && layout.hasSpecular(Role::SpecularDistance) &&
-        layout.hasSpecular(Role::Roughness))) {
+      !(layout.hasSpecular(Role::Specular) && layout.hasSpecular(Role::Roughness))) {
     throw InputError(
         file.path().string() +
-        ": no specular light with distances and roughness (Specular.R, SpecularDistance.Z, Roughness.Y and "
-        "others of walr's own layout; layout: " +
+        ": no specular light with roughness (Specular.R, SpecularDistance.Z, Roughness.Y and others of walr's own "
+        "layout; layout: " +
         std::string(layout.layout->name) +
         "). Render with 'walr render --specular' or, in Blender, with samples/blender/export_frames.py, name them in a "
         "map of channels, or denoise diffuse light. Channels found: " +

@@ -50,8 +50,10 @@ struct AddedLight {
 /// What is wanted of specular light and of what belongs to it.
 enum class SpecularWish {
   Nothing,
-  IfHeld,    ///< Read it if the files hold it, as linters do.
-  Denoised,  ///< The files must hold it. A composite gets it from the denoiser, and does not add it as it is.
+  IfHeld,  ///< Read it if the files hold it, as linters do.
+  /// The files must hold it, with roughness. Without distances, all that is reflected is taken to be far away. A
+  /// composite gets it from the denoiser, and does not add it as it is.
+  Denoised,
 };
 
 /// The light to read beside the guides.

@@ -329,6 +329,9 @@ Frame Sequence::read(std::size_t index) const {
     ExrReader distances(entry.distances, options_.stereoView);
     checkDisplayWindow(distances);
     readDistances(distances, layout_, place_, frame);
+  } else if (options_.light.specular == SpecularWish::Denoised && frame.specularDistance.empty()) {
+    frame.specularDistance = Image(place_.size.x, place_.size.y, 1);
+    std::ranges::fill(frame.specularDistance.values(), kBackgroundDepth);
   }
   if (layout_.map != nullptr) convertByMap(*layout_.map, frame);
   if (!options_.keptLight.everyPixel() && options_.light.indirect) {

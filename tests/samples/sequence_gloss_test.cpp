@@ -132,14 +132,17 @@ TEST_F(GlossDistances, AreReadWithTheLight) {
   EXPECT_TRUE(open().read(1).specularDistance.empty());
 }
 
-TEST_F(GlossDistances, AreNeededToDenoiseTheLight) {
+TEST_F(GlossDistances, AreThereForAllFramesOrForNone) {
   std::filesystem::remove(distanceFile(1));
   expectRefused({"distance_0000.exr", "frame 1", "Export the missing frames"}, options);
   std::filesystem::remove(distanceFile(0));
   writeDistances(1);
   expectRefused({"distance_0001.exr", "frame 0"}, options);
   std::filesystem::remove(distanceFile(1));
-  expectRefused({"noisy_0000.exr", "distances", "export_frames.py"}, options);
+  EXPECT_FALSE(open(options).layout().hasSpecular(Role::SpecularDistance));
+  EXPECT_EQ(open(options).read(0).specularDistance.at(2, 2, 0), kBackgroundDepth);
+  files.writeFrame(0, addGloss);
+  expectRefused({"noisy_0000.exr", "roughness", "export_frames.py"}, options);
   options.light.specular = SpecularWish::IfHeld;
   EXPECT_TRUE(open(options).read(0).specularDistance.empty());
 }

@@ -340,6 +340,7 @@ TEST_F(ProgramTest, ACompositeThatIsNotDenoisedIsBlendersCombined) {
                                     "VolumeInd", "Emit", "Env"}) {
       fill(light, 8.0F);
     }
+    channels["ViewLayer.Roughness.X"] = Image(width, height, 1);
     for (const char* const colour : {".R", ".G", ".B"}) {
       const auto value = [&](const char* plane, std::size_t i) {
         return double{channels.at(std::string("ViewLayer.") + plane + colour).values()[i]};
@@ -352,17 +353,33 @@ TEST_F(ProgramTest, ACompositeThatIsNotDenoisedIsBlendersCombined) {
       }
     }
   });
-  const ProcessResult result = denoise({"--method", "none", "--composite"});
-  expectSuccess(result);
-  EXPECT_EQ(result.out.find("the frames have no"), std::string::npos) << result.out;
-  ExrReader reader(output / "denoised_0000.exr");
-  for (const std::string colour : {"R", "G", "B"}) {
-    Image lit(width, height, 1);
-    reader.read(std::vector<ExrReader::Target>{{colour, &lit, 0}});
-    for (std::size_t i = 0; i < lit.values().size(); ++i) {
-      const double expected = combined["." + colour][i];
-      // Half floats round the two diffuse lights on their way through the device, and the sum: 2^-11 each, relatively.
-      EXPECT_NEAR(lit.values()[i], expected, 2.0 * 0x1p-11 * expected) << colour << i;
+  const auto expectCombined = [&] {
+    ExrReader reader(output / "denoised_0000.exr");
+    for (const std::string colour : {"R", "G", "B"}) {
+      Image lit(width, height, 1);
+      reader.read(std::vector<ExrReader::Target>{{colour, &lit, 0}});
+      for (std::size_t i = 0; i < lit.values().size(); ++i) {
+        const double expected = combined["." + colour][i];
+        // Half floats round the denoised lights on their way through the device, and the sum: 2^-11 each, relatively.
+        EXPECT_NEAR(lit.values()[i], expected, 2.0 * 0x1p-11 * expected) << colour << i;
+      }
+    }
+  };
+  Channels distances;
+  for (const char* const colour : {"R", "G"}) {
+    distances[std::string("ViewLayer.Combined.") + colour] = Image(width, height, 1);
+  }
+  const std::filesystem::path distanceFile = input / "distance_0000.exr";
+  for (const bool specular : {false, true}) {
+    test::writeChannels(distanceFile, distances);
+    std::vector<std::string> arguments{"--method", "none", "--composite"};
+    if (specular) arguments.insert(arguments.end(), {"--light", "all"});
+    for (const bool hasDistances : {true, false}) {
+      if (!hasDistances) std::filesystem::remove(distanceFile);
+      const ProcessResult result = denoise(arguments);
+      expectSuccess(result);
+      EXPECT_EQ(result.out.find("the frames have no") == std::string::npos, hasDistances || !specular) << result.out;
+      expectCombined();
     }
   }
 }
