@@ -49,10 +49,6 @@ ReflectionSearch searchReflections(StageGraph graph, const DenoiserInputs& input
   if (settings.rejection != HistoryRejection::Plane) {
     throw std::invalid_argument("specular light tests its history by plane: leave accumulation.rejection at plane");
   }
-  if (inputs.conventions.motionDepth == InputConventions::MotionDepth::Found && inputs.scene.objectMotion) {
-    throw std::invalid_argument(
-        "specular light needs the third channel of motion where objects move: motion depth cannot be found");
-  }
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
   const fg::History reflectors = graph->history("reflectors", {VK_FORMAT_R32G32_UINT, extent});
   ReflectionSearch search{graph, inputs, guides, settings, reflection, reflectors, host};

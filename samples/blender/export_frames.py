@@ -431,13 +431,8 @@ def main():
     moving = name_moving_objects(scene, arguments.frames)
     write_cameras(output / "cameras.json", scene, arguments.frames)
     render_all(scene, output, arguments, layers, distances)
-    reflections = ["--light", "all"]
-    found = ["--motion-depth", "found"]
-    options = found if moving else reflections if distances else []
+    options = (["--light", "all"] if distances else []) + (["--motion-depth", "found"] if moving else [])
     print(f"Finished. Denoise the frames with\n    {denoise_command(output, layers, options)}", flush=True)
-    if moving and distances:
-        print("or, with reflections, but with more noise on objects that move towards the camera or away from it,\n"
-              f"    {denoise_command(output, layers, reflections)}", flush=True)
 
 
 main()

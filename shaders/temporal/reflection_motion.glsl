@@ -158,6 +158,46 @@ bool isSought(ReflectedDistance distance, float z, vec2 inverses) {
   return distance.frames == 0.0 || (inverse >= inverses.x && inverse <= inverses.y);
 }
 
+// What the previous frame shows at taps.
+struct ShownBefore {
+  bvec4 inside;
+  vec4 depths;
+  uvec2 reflectors[4];
+};
+
+ShownBefore shownBefore(HistoryTaps taps) {
+  const vec2 corner = sharedCorner(taps, frame.previousTexel);
+  const uvec4 words[2] = {gatherTaps(previousReflector, corner), textureGather(previousReflector, corner, 1).wzxy};
+  ShownBefore shown;
+  shown.inside = tapsInside(taps, textureSize(previousReflector, 0));
+  shown.depths = unpackDepth(gatherTaps(previousDepth, corner));
+  [[unroll]] for (int i = 0; i < 4; ++i) shown.reflectors[i] = uvec2(words[0][i], words[1][i]);
+  return shown;
+}
+
+bool showsSurfaceBefore(ShownBefore shown, int i) { return shown.inside[i] && shown.depths[i] > 0.0; }
+
+vec3 positionBefore(HistoryTaps taps, int i, float depth) {
+  const vec2 q = vec2(historyTap(taps, i)) + 0.5;
+  return rayThrough(frame.previousRayFromPixel, q * frame.pixelFromPreviousPixel) * depth;
+}
+
+// How far the surface was in the previous frame over the depth that it would have if it stood still, as the plane of a
+// pixel says: of those at its place that face as it does, the one that says the least change. 1 if none does.
+float foundDepthChange(ivec2 p, vec2 motion, Reflector still) {
+  const HistoryTaps taps = tapsAround(p, motion, frame.previousPixelFromPixel);
+  const ShownBefore shown = shownBefore(taps);
+  vec4 changes;
+  bvec4 candidates;
+  [[unroll]] for (int i = 0; i < 4; ++i) {
+    const vec3 normal = unpackLongNormal(shown.reflectors[i].x), plane = still.normal + normal;
+    changes[i] = dot(positionBefore(taps, i, shown.depths[i]), plane) / dot(still.position, plane);
+    candidates[i] = showsSurfaceBefore(shown, i) && dot(still.normal, normal) >= constants.normalThreshold;
+  }
+  const float nearest = nearestTap(changes, candidates, 1.0, constants.planeTolerance);
+  return nearest == kNoTap ? 1.0 : nearest;
+}
+
 // What the previous frame shows at a position: the mean of those of its pixels there that show what is sought.
 struct Before {
   vec3 position;
@@ -173,20 +213,16 @@ struct Before {
 
 Before surfaceBefore(HistoryTaps taps, Sought sought) {
   const Reflector surface = sought.surface;
-  const bvec4 inside = tapsInside(taps, textureSize(previousReflector, 0));
-  const vec2 corner = sharedCorner(taps, frame.previousTexel);
-  const vec4 depths = unpackDepth(gatherTaps(previousDepth, corner));
-  const uvec4 words[2] = {gatherTaps(previousReflector, corner), textureGather(previousReflector, corner, 1).wzxy};
+  const ShownBefore shown = shownBefore(taps);
   vec3 positions[4], normals[4];
   Before b;
   [[unroll]] for (int i = 0; i < 4; ++i) {
-    const vec2 q = vec2(historyTap(taps, i)) + 0.5;
-    const uvec2 reflector = uvec2(words[0][i], words[1][i]);
-    positions[i] = rayThrough(frame.previousRayFromPixel, q * frame.pixelFromPreviousPixel) * depths[i];
+    const uvec2 reflector = shown.reflectors[i];
+    positions[i] = positionBefore(taps, i, shown.depths[i]);
     normals[i] = unpackLongNormal(reflector.x);
     const float rougher = roughnessOf(reflector) - surface.roughness;
-    b.accepted[i] = sought.valid && inside[i] && depths[i] > 0.0 && abs(rougher) <= kRoughnessTolerance &&
-                    isSought(distanceOf(reflector), depths[i], sought.inverses) &&
+    b.accepted[i] = sought.valid && showsSurfaceBefore(shown, i) && abs(rougher) <= kRoughnessTolerance &&
+                    isSought(distanceOf(reflector), shown.depths[i], sought.inverses) &&
                     areOnOneSurface(surface.position, surface.normal, positions[i], normals[i]);
   }
   taps.accepted = b.accepted;
@@ -287,8 +323,9 @@ struct ReflectionMotion {
 ReflectionMotion reflectionMotionAt(ivec2 p, Reflector own) {
   const Reprojection r = reproject(p, -own.position.z);
   const vec2 ofSurface = pixelCentre(p) + r.motion + frame.jitterDelta;
-  const Reflector surface = Reflector(rayThrough(frame.previousRayFromPixel, ofSurface) * r.depth,
-                                      mat3(frame.previousViewFromView) * own.normal, own.roughness);
+  Reflector surface = Reflector(rayThrough(frame.previousRayFromPixel, ofSurface) * r.depth,
+                                mat3(frame.previousViewFromView) * own.normal, own.roughness);
+  if (kMotionDepthFound) surface.position *= foundDepthChange(p, r.motion, surface);
   Sought sought = Sought(surface, r.valid, kAnyInverses);
   ReflectionMotion result =
       ReflectionMotion(r.motion, bvec4(false), constants.maxHistory, 0.0, false, kNoReflectedSamples);

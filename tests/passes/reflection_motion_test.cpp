@@ -125,25 +125,44 @@ constexpr double kMissTolerance = 1.0 / 77.0;
 constexpr double kUndecided = 0.03;
 
 TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
-  const Scene worlds[]{sphere(), bumpyWall(0.1), Mirror{0.5, 0.7}.scene(), Mirror{-1.0, 0.3}.scene(),
-                       Mirror{kInfinity, 0.4}.scene()};
-  for (const bool objectMotion : {false, true}) {
+  struct World {
+    Scene before;
+    Scene now;
+  };
+  const auto still = [](const Scene& scene) { return World{scene, scene}; };
+  const auto moving = [](const Mirror& mirror) { return World{mirror.before().scene(), mirror.scene()}; };
+  const World worlds[]{still(sphere()),
+                       still(bumpyWall(0.1)),
+                       still(Mirror{0.5, 0.7}.scene()),
+                       still(Mirror{-1.0, 0.3}.scene()),
+                       still(Mirror{kInfinity, 0.4}.scene()),
+                       moving({kInfinity, 0.4, 2.0, {0.0, 0.0, 0.08}}),
+                       moving({0.5, 0.4, 2.0, {0.0, 0.0, -0.06}})};
+  using enum InputConventions::MotionDepth;
+  for (const auto& [objectMotion, motionDepth] :
+       {std::pair(false, Given), std::pair(true, Given), std::pair(true, Found)}) {
     const SceneDescription description{.objectMotion = objectMotion};
-    ReflectionRun run(device(), description, objectMotion);
-    for (const Scene& world : worlds) {
+    ReflectionRun run(device(), description, objectMotion, motionDepth);
+    for (const World& world : worlds) {
       for (const double roughness : {0.0, 0.2, 0.4, 1.0}) {
         const std::size_t number = static_cast<std::size_t>(&world - worlds);
-        if (objectMotion && number % 2 == 1) continue;
-        SCOPED_TRACE("world " + std::to_string(number) + ", roughness " + std::to_string(roughness));
+        const bool moves = number > 4;
+        if (objectMotion ? number % 2 == 1 && !moves : moves) continue;
+        SCOPED_TRACE("world " + std::to_string(number) + ", roughness " + std::to_string(roughness) +
+                     (motionDepth == Found ? ", depth found" : ""));
         const bool zoom = number >= 2;
         const glm::dvec3 step = zoom ? glm::dvec3(0.005, -0.004, 0.003) : glm::dvec3(0.09, 0.04, -0.03);
         const auto camera = [&](std::uint32_t i) {
           const FrameDescription at = jittered(cameraAt(double(i) * step, (i - 1.0) * step, kSize, i), i);
           return zoom ? zoomed(at) : at;
         };
-        HostFrame first = specularFrame(world, camera(0), 1.5, roughness);
-        HostFrame second = specularFrame(world, camera(1), 1.5, roughness);
+        HostFrame first = specularFrame(world.before, camera(0), 1.5, roughness);
+        HostFrame second = specularFrame(world.now, camera(1), 1.5, roughness);
         second.scene = description;
+        second.conventions.motionDepth = motionDepth;
+        if (motionDepth == Found) {
+          for (glm::dvec3& motion : second.motion.pixels()) motion.z = NAN;  // Must not be read.
+        }
         reference::forEachPixel(kSize, [&](glm::ivec2 p) {
           // Distances, or no sample. On the right, something else came into view.
           const double distance = (p.x < 52 ? 1.0 : 2.0) + 0.5 * (p.x % 2);
@@ -192,6 +211,38 @@ TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
         comparison.expect(kUndecided);
       }
     }
+  }
+}
+
+// A mirror that comes nearer by more than the plane tolerance keeps its history if the depth of its motion is found,
+// unless it comes nearer by more than a tenth a frame, and has none if it is taken for a still one.
+TEST_F(ReflectionMotionTest, FoundDepthKeepsTheHistoryOfWhatComesNearer) {
+  using enum InputConventions::MotionDepth;
+  const auto historyOf = [&](double step, InputConventions::MotionDepth motionDepth, double roughness) {
+    const auto method = makeDenoiser("accumulate");
+    ReflectionRun run(device(), *method, {.history = true, .motionDepth = motionDepth});
+    for (int i = 0; i < 3; ++i) {
+      Mirror mirror{kInfinity, 0.4, 2.0, {0.0, 0.0, step}, {0.0, 0.0, i * step}};
+      const auto number = static_cast<std::uint32_t>(i);
+      HostFrame frame = specularFrame(mirror.scene(), zoomed(cameraAt({}, {}, kSize, number)), 1.5, roughness);
+      if (motionDepth != Given) {
+        for (glm::dvec3& motion : frame.motion.pixels()) motion.z = NAN;
+      }
+      run.frame(frame);
+    }
+    const Image<glm::dvec3> history = run.view(2);
+    double sum = 0.0;
+    for (const glm::dvec3& length : history.pixels()) sum += length.x;
+    return sum / static_cast<double>(history.pixels().size());
+  };
+  // The image in a mirror that moves is elsewhere; that of a rough surface moves with it.
+  for (const double roughness : {0.2, 1.0}) {
+    SCOPED_TRACE(roughness);
+    const double given = historyOf(0.05, Given, roughness);
+    EXPECT_GT(given, 2.0);  // Of 3. Beyond the border, there is none.
+    EXPECT_NEAR(historyOf(0.05, Found, roughness), given, 0.05);
+    EXPECT_LT(historyOf(0.05, StaticScene, roughness), 1.1);
+    EXPECT_LT(historyOf(0.3, Found, roughness), 1.1);
   }
 }
 
@@ -379,7 +430,7 @@ TEST(SpecularLight, IsRefusedByNameWhereAMethodCannotTakeIt) {
     fg::test::expectError<std::invalid_argument>([&] { (void)method->views(conventions); }, {why});
   };
   expectRefused({.specular = true, .light = {.columns = 2}}, "distances, not counts");
-  expectRefused({.motionDepth = InputConventions::MotionDepth::Found, .specular = true}, "third channel of motion");
+  EXPECT_NO_THROW((void)method->views({.motionDepth = InputConventions::MotionDepth::Found, .specular = true}));
   method->set("accumulation.rejection", "depth");
   expectRefused({.specular = true}, "accumulation.rejection");
   const auto svgf = makeDenoiser("svgf");

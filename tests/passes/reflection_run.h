@@ -23,9 +23,11 @@ class ReflectionRun {
     bool alone = true;            ///< No other light could share the guides, so that passes may be joined.
     bool history = false;         ///< There is a third view, that of the history of accumulated light.
     bool specularMotion = false;  ///< Frames have `HostFrame::specularMotion`.
+    InputConventions::MotionDepth motionDepth = InputConventions::MotionDepth::Given;
   };
   ReflectionRun(const fg::test::TestDevice& device, Denoiser& method, const Options& options)
-      : inputs_(importInputs(graph_, kMirrorSize, {.specular = true}, options.specularMotion)),
+      : inputs_(importInputs(graph_, kMirrorSize, {.motionDepth = options.motionDepth, .specular = true},
+                             options.specularMotion)),
         output_(importOutput(graph_, kMirrorSize)) {
     wantViews(options.history);
     SharedGuides shared;
@@ -35,8 +37,9 @@ class ReflectionRun {
   }
   ReflectionRun(const fg::test::TestDevice& device, Denoiser& method) : ReflectionRun(device, method, Options{}) {}
   /// Of the stage. The output is the confidence.
-  ReflectionRun(const fg::test::TestDevice& device, const SceneDescription& scene, bool specularMotion)
-      : inputs_(importInputs(graph_, kMirrorSize, {.specular = true}, specularMotion)),
+  ReflectionRun(const fg::test::TestDevice& device, const SceneDescription& scene, bool specularMotion,
+                InputConventions::MotionDepth motionDepth)
+      : inputs_(importInputs(graph_, kMirrorSize, {.motionDepth = motionDepth, .specular = true}, specularMotion)),
         guides_(importGuides(graph_, kMirrorSize)) {
     inputs_.scene = scene;
     wantViews(false);

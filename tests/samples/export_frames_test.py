@@ -392,11 +392,10 @@ class ExportFrames(unittest.TestCase):
         self.assertIn("objects move (Ball)", text)
         self.assertTrue(text.rstrip().endswith("--motion-depth found --view-layer 'Near things'"), text)
 
-    def test_names_the_command_for_reflections_beside_moving_objects(self):
+    def test_the_command_denoises_reflections_beside_moving_objects(self):
         bpy, _ = blender(moves=True, materials=[material(Roughness=0.25)])
         text = self.run_script(bpy, "--frames", "1-2")
-        self.assertIn("--motion-depth found\nor, with reflections", text)
-        self.assertTrue(text.rstrip().endswith("--light all"), text)
+        self.assertTrue(text.rstrip().endswith("--composite --png --light all --motion-depth found"), text)
 
     def test_an_object_that_returns_has_moved(self):
         bpy, scene = blender(moves=True)

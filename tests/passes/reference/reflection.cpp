@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -111,6 +112,9 @@ class Search {
   }
   /// Whether a pixel of the previous frame shows what a mirror shows now.
   bool showsTheSame(glm::ivec2 q, double roughness);
+  /// How far the surface was in the previous frame, where motion leads, over the depth that it would have there if it
+  /// stood still, if that is to be found.
+  double foundDepthChange(const Mirror& still, glm::dvec2 pixel);
   /// The mean of what the previous frame shows at a position; `whole`: all four pixels count.
   /// @param beyond  continues the bilinear mean by so many pixels
   std::optional<Mirror> shownAt(glm::dvec2 position, const Mirror& surface, bool& whole, glm::dvec2 beyond = {});
@@ -155,6 +159,36 @@ bool Search::showsTheSame(glm::ivec2 q, double roughness) {
   const double highest = 1.25 / distances_.nearest + least;
   result_.undecided |= close(inverse, lowest) || close(inverse, highest);
   return inverse >= lowest && inverse <= highest;
+}
+
+double Search::foundDepthChange(const Mirror& still, glm::dvec2 pixel) {
+  if (previous_.guides.pixels().empty() || !(glm::length(pixel) < 1e5)) return 1.0;
+  std::vector<double> changes;
+  for (int i = 0; i < 4; ++i) {
+    const glm::ivec2 q = glm::ivec2(glm::floor(pixel - 0.5)) + glm::ivec2(i % 2, i / 2);
+    if (!previous_.guides.contains(q) || previous_.guides[q].depth == 0.0) continue;
+    const glm::dvec3 normal = octahedralDecode(previous_.guides[q].features);
+    const double cosine = glm::dot(still.normal, normal);
+    result_.undecided |= close(cosine, settings_.thresholds.normalThreshold);
+    if (cosine < double(settings_.thresholds.normalThreshold)) continue;
+    const glm::dvec3 shown =
+        rayThrough(frame_.constants.previousRayFromPixel, pixelCentre(q)) * previous_.guides[q].depth;
+    const glm::dvec3 plane = still.normal + normal;
+    changes.push_back(glm::dot(shown, plane) / glm::dot(still.position, plane));
+  }
+  constexpr double kMostChange = 0.1;
+  constexpr double kRounding = 1e-5;  // Of a change, in single precision.
+  const auto sizeOf = [](double change) { return std::abs(change - 1.0); };
+  std::erase_if(changes, [&](double change) {
+    result_.undecided |= std::abs(sizeOf(change) - kMostChange) < kRounding;
+    return sizeOf(change) > kMostChange;
+  });
+  if (changes.empty()) return 1.0;
+  const double least = *std::ranges::min_element(changes, {}, sizeOf);
+  result_.undecided |= std::ranges::any_of(changes, [&](double change) {
+    return std::abs(change - least) > kRounding && sizeOf(change) - sizeOf(least) < kRounding;
+  });
+  return least;
 }
 
 std::optional<Mirror> Search::shownAt(glm::dvec2 position, const Mirror& surface, bool& whole, glm::dvec2 beyond) {
@@ -203,7 +237,8 @@ Reflected Search::find() {
 
   const glm::dvec2 jitter(frame_.constants.jitterDelta);
   const glm::dvec2 surfaceAt = r.pixel + jitter;
-  const Mirror surface{r.position, turned(own.normal), own.roughness};
+  Mirror surface{r.position, turned(own.normal), own.roughness};
+  if (r.findsDepth) surface.position *= foundDepthChange(surface, r.pixel);
   distances_ = distancesAround(own);
   const double distance = std::min(distances_.nearest, kFarthest * -own.position.z);
   const glm::dvec3 moved = motionOfReflected();
