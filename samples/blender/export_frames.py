@@ -6,8 +6,8 @@
 writes to DIR, in the layout of samples/docs/sequences.md ("Blender Cycles"):
 
     noisy_FFFF.exr   1 sample per pixel (--spp), with the passes that the denoiser needs and those of whole pictures
-    distance_FFFF.exr
-                     how far reflected things are from the surface, if materials can write their roughness
+    specular_FFFF.exr
+                     roughness, and how far reflected things are from the surface, if materials have glossy lobes
     ref_FFFF.exr     the same frame with M samples per pixel (--reference-spp)
     cameras.json     the camera of every frame; those of frames from earlier runs are kept
 
@@ -42,11 +42,10 @@ PASSES = [
     "glossy_indirect", "glossy_color", "transmission_direct", "transmission_indirect", "transmission_color",
     "volume_direct", "volume_indirect", "emit", "environment"
 ]
-# Cycles has no pass of it: materials write it.
-ROUGHNESS = "Roughness"
+PASSES_OF_SPECULAR = ["combined", "glossy_direct", "glossy_color", "emit"]
+# Shaders with a glossy lobe, and nodes that let a ray pass or hand on other shaders.
 LOBES = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC", "BSDF_GLASS"}
-# Shaders that let a ray pass, or combine others.
-PASSED = {"BSDF_TRANSPARENT", "MIX_SHADER", "ADD_SHADER"}
+PASSED = {"BSDF_TRANSPARENT", "MIX_SHADER", "ADD_SHADER", "GROUP", "GROUP_INPUT", "REROUTE"}
 
 
 def fail(message):
@@ -149,40 +148,18 @@ def set_up(scene, size):
     return layers
 
 
-def add_roughness(layers):
-    """Lets every material write the roughness of its glossy lobe, unless one has several or the scene has such a pass.
-
-    Returns whether frames hold it.
-    """
-    if any(aov.name == ROUGHNESS for layer in layers for aov in layer.aovs):
-        return True
-    lobes = []
-    for tree in (material.node_tree for material in bpy.data.materials if material.use_nodes):
-        used = [node for node in tree.nodes if any(socket.is_linked for socket in node.outputs)]
-        found = [node for node in used if node.type in LOBES]
-        if len(found) > 1 or any(node.type == "GROUP" for node in used):
-            print("warning: there will be no pass of roughness: a material has several glossy lobes, or a group of nodes")
-            return False
-        lobes += [(tree, node.inputs["Roughness"]) for node in found]
-    for tree, roughness in lobes:
-        output = tree.nodes.new("ShaderNodeOutputAOV")
-        # Blender 4.1 renamed it.
-        setattr(output, "aov_name" if hasattr(output, "aov_name") else "name", ROUGHNESS)
-        if roughness.is_linked:
-            tree.links.new(roughness.links[0].from_socket, output.inputs["Value"])
-        else:
-            output.inputs["Value"].default_value = roughness.default_value
-    for layer in layers:
-        aov = layer.aovs.add()
-        aov.name, aov.type = ROUGHNESS, "VALUE"
-    return bool(lobes)
+def shader_trees():
+    """The nodes of all materials and of their groups."""
+    groups = [group for group in bpy.data.node_groups if group.bl_idname == "ShaderNodeTree"]
+    return [material.node_tree for material in bpy.data.materials if material.use_nodes] + groups
 
 
-def show_distances(scene, layers):
-    """Turns the scene into one whose picture tells how far from a surface the things are that it reflects.
+def show_specular(scene, layers):
+    """Turns the scene into one whose passes tell how rough a surface is, and how far from it things are that it reflects.
 
-    What the camera sees only reflects, as its glossy lobe does. What is reflected shines with one over the length of
-    the ray in red and with 1 in green, the sky with 1 in green only: red over green is the mean of one over the distance.
+    What the camera sees reflects as its glossy lobes do, and shines with their roughness in red and with 1 in green. What
+    is reflected shines with one over the length of the ray in red and with 1 in green, the sky with 1 in green only. Of
+    either light, red over green is the mean.
     """
     scene.cycles.max_bounces = 1
     for thing in scene.objects:
@@ -194,8 +171,9 @@ def show_distances(scene, layers):
         if not material.is_grease_pencil:
             material.use_nodes = True
             aim_no_rays_at(material)
-            reflect_only(material.node_tree)
-    scene.world = bpy.data.worlds.new("Distance")
+    for tree in shader_trees():
+        show_lobes(tree)
+    scene.world = bpy.data.worlds.new("Specular")
     scene.world.use_nodes = True
     aim_no_rays_at(scene.world)
     background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
@@ -203,15 +181,15 @@ def show_distances(scene, layers):
     for layer in layers:
         layer.material_override = None
         for name in PASSES:
-            ask_for_pass(layer, f"use_pass_{name}", name == "combined")
+            ask_for_pass(layer, f"use_pass_{name}", name in PASSES_OF_SPECULAR)
 
 
 def give_material(thing):
     """Cycles shows a thing without a material in grey."""
     if not thing.data.materials:
-        thing.data.materials.append(bpy.data.materials.new("Distance"))
+        thing.data.materials.append(bpy.data.materials.new("Specular"))
     for slot in thing.material_slots:
-        slot.material = slot.material or bpy.data.materials.new("Distance")
+        slot.material = slot.material or bpy.data.materials.new("Specular")
 
 
 def aim_no_rays_at(shining):
@@ -222,8 +200,8 @@ def aim_no_rays_at(shining):
             setattr(shining.cycles, setting, value)
 
 
-def reflect_only(tree):
-    """Replaces every shader of a material for show_distances, but those that let a ray pass."""
+def show_lobes(tree):
+    """Replaces every shader of a tree of nodes for show_specular, but those that let a ray pass."""
     transparent = tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0]
     for node in [each for each in tree.nodes if each.type == "OUTPUT_MATERIAL" and each.inputs["Volume"].is_linked]:
         tree.links.remove(node.inputs["Volume"].links[0])
@@ -232,11 +210,15 @@ def reflect_only(tree):
     shaders = [(node, [link.to_socket for output in node.outputs if output.type == "SHADER" for link in output.links])
                for node in tree.nodes if node.type not in PASSED]
     path = tree.nodes.new("ShaderNodeLightPath")
-    shine = add_shine(tree, path.outputs["Ray Length"])
+    nearness = tree.nodes.new("ShaderNodeMath")
+    nearness.operation = "DIVIDE"
+    nearness.inputs[0].default_value = 1.0
+    tree.links.new(path.outputs["Ray Length"], nearness.inputs[1])
+    reflected = add_light(tree, nearness.outputs[0])
     for node, targets in shaders:
         if not targets:
             continue
-        replaced = add_mix(tree, shine, add_lobe(tree, node) if node.type in LOBES else None)
+        replaced = add_mix(tree, reflected, add_lobe(tree, node) if node.type in LOBES else None)
         tree.links.new(path.outputs["Is Camera Ray"], replaced.inputs["Fac"])
         if "Alpha" in node.inputs:
             replaced = add_mix(tree, transparent, replaced.outputs[0])
@@ -245,29 +227,33 @@ def reflect_only(tree):
             tree.links.new(replaced.outputs[0], target)
 
 
-def add_shine(tree, length):
-    """Light of one over a length in red and of 1 in green."""
-    nearness = tree.nodes.new("ShaderNodeMath")
-    nearness.operation = "DIVIDE"
-    nearness.inputs[0].default_value = 1.0
-    tree.links.new(length, nearness.inputs[1])
+def add_light(tree, red):
+    """Light with a value, the output of a node or a number, in red and 1 in green."""
     colour = tree.nodes.new("ShaderNodeCombineXYZ")
+    if isinstance(red, float):
+        colour.inputs["X"].default_value = red
+    else:
+        tree.links.new(red, colour.inputs["X"])
     colour.inputs["Y"].default_value = 1.0
-    tree.links.new(nearness.outputs[0], colour.inputs["X"])
-    shine = tree.nodes.new("ShaderNodeEmission")
-    tree.links.new(colour.outputs[0], shine.inputs["Color"])
-    return shine.outputs[0]
+    light = tree.nodes.new("ShaderNodeEmission")
+    tree.links.new(colour.outputs[0], light.inputs["Color"])
+    return light.outputs[0]
 
 
 def add_lobe(tree, node):
-    """A white lobe that is as rough as the one of the node."""
+    """A white lobe that is as rough as the one of the node, and light that tells so."""
     lobe = tree.nodes.new("ShaderNodeBsdfAnisotropic")
     lobe.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     lobe.inputs["Anisotropy"].default_value = 0.0
-    copy_input(tree, node.inputs["Roughness"], lobe.inputs["Roughness"])
+    roughness = node.inputs["Roughness"]
+    copy_input(tree, roughness, lobe.inputs["Roughness"])
     if node.inputs["Normal"].is_linked:
         copy_input(tree, node.inputs["Normal"], lobe.inputs["Normal"])
-    return lobe.outputs[0]
+    both = tree.nodes.new("ShaderNodeAddShader")
+    tree.links.new(lobe.outputs[0], both.inputs[0])
+    told = roughness.links[0].from_socket if roughness.is_linked else roughness.default_value
+    tree.links.new(add_light(tree, told), both.inputs[1])
+    return both.outputs[0]
 
 
 def add_mix(tree, first, second):
@@ -386,15 +372,15 @@ class RemainingTime:
         return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
 
 
-def render_all(scene, output, arguments, layers, distances):
+def render_all(scene, output, arguments, layers, specular):
     jobs = []
     for frame in arguments.frames:
         jobs.append((frame, output / f"noisy_{frame:04d}.exr", arguments.spp, frame + 1))
         if arguments.reference_spp:
             jobs.append((frame, output / f"ref_{frame:04d}.exr", arguments.reference_spp, REFERENCE_SEED + frame))
     # The last ones, because they change the scene. The seed is that of the light, for the same paths where it can be.
-    last = [(frame, output / f"distance_{frame:04d}.exr", arguments.spp, frame + 1)
-            for frame in arguments.frames if distances]
+    last = [(frame, output / f"specular_{frame:04d}.exr", arguments.spp, frame + 1)
+            for frame in arguments.frames if specular]
     existing = [file for _, file, _, _ in jobs + last if file.exists()]
     for file in existing:
         print(f"{file.name}: already exists, skipped")
@@ -402,7 +388,7 @@ def render_all(scene, output, arguments, layers, distances):
     remaining = RemainingTime([sample_count for _, _, sample_count, _ in jobs + last])
     for number, (frame, file, sample_count, seed) in enumerate(jobs + last, 1):
         if number == len(jobs) + 1:
-            show_distances(scene, layers)
+            show_specular(scene, layers)
         start = time.monotonic()
         scene.frame_set(frame)
         render(scene, file, sample_count, seed)
@@ -422,7 +408,7 @@ def main():
     scene = bpy.context.scene
     choose_camera(scene, arguments.camera)
     layers = set_up(scene, arguments.size)
-    distances = add_roughness(layers)
+    specular = any(node.type in LOBES for tree in shader_trees() for node in tree.nodes)
     if len(layers) > 1:
         print(f"warning: the scene has several view layers ({', '.join(layer.name for layer in layers)}): walr denoise "
               "reads one at a time, which --view-layer names")
@@ -430,8 +416,8 @@ def main():
     output.mkdir(parents=True, exist_ok=True)
     moving = name_moving_objects(scene, arguments.frames)
     write_cameras(output / "cameras.json", scene, arguments.frames)
-    render_all(scene, output, arguments, layers, distances)
-    options = (["--light", "all"] if distances else []) + (["--motion-depth", "found"] if moving else [])
+    render_all(scene, output, arguments, layers, specular)
+    options = (["--light", "all"] if specular else []) + (["--motion-depth", "found"] if moving else [])
     print(f"Finished. Denoise the frames with\n    {denoise_command(output, layers, options)}", flush=True)
 
 

@@ -44,8 +44,7 @@ constexpr std::array kProjectSpecular = {
     Plane{Role::SpecularAlbedo, "SpecularAlbedo", "RGB"},
     Plane{Role::SpecularMotion, "SpecularMotion", "XYZ", true},
 };
-// Cycles has no pass of the distance, which lies in files of its own, and one of roughness only if the scene's
-// materials write it.
+// Cycles has no pass of the distance, and one of roughness only if the scene's materials write it.
 constexpr std::array kCyclesSpecular = {
     Plane{Role::Specular, "GlossDir", "RGB"},
     Plane{Role::Specular, "GlossInd", "RGB"},
@@ -58,7 +57,14 @@ constexpr std::array kCyclesSpecular5 = {
     Plane{Role::SpecularAlbedo, "Glossy Color", "RGB"},
     Plane{Role::Roughness, "Roughness", "X", true},
 };
-constexpr Plane kDistances = {Role::SpecularDistance, "Combined", "RG"};
+constexpr std::array kSpecularFile = {
+    Plane{Role::SpecularDistance, "GlossDir", "RG"},
+    Plane{Role::Roughness, "Emit", "RG"},
+};
+constexpr std::array kSpecularFile5 = {
+    Plane{Role::SpecularDistance, "Glossy Direct", "RG"},
+    Plane{Role::Roughness, "Emission", "RG"},
+};
 constexpr std::array kProjectAdded = {AddedLight{&Frame::nonDiffuse, "Specular", "SpecularAlbedo", false}};
 // The emission pass of Blender holds only surfaces; the sky has a pass of its own.
 constexpr std::array kCyclesAdded = {
@@ -277,7 +283,7 @@ const Layout& cyclesLayout() {
                              {Role::ObjectId, "IndexOB", "X"},
                              kCyclesAdded,
                              kCyclesSpecular,
-                             true,
+                             kSpecularFile,
                              false};
   return layout;
 }
@@ -289,6 +295,7 @@ const Layout& cyclesLayout5() {
     renamed.objectId.name = "Object Index";
     renamed.added = kCyclesAdded5;
     renamed.specular = kCyclesSpecular5;
+    renamed.specularFile = kSpecularFile5;
     return renamed;
   }();
   return layout;
@@ -326,7 +333,8 @@ std::string RecognizedLayout::plane(Light light) const {
 }
 
 bool RecognizedLayout::hasSpecular(Role role) const {
-  if (role == Role::SpecularDistance && distanceFiles) return true;
+  const std::span<const Plane> apart = layout->specularFile;
+  if (specularFiles && std::ranges::find(apart, role, &Plane::role) != apart.end()) return true;
   return std::ranges::find(specular, role, &Plane::role) != specular.end();
 }
 
@@ -471,22 +479,26 @@ void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish&
   for (const AddedLight& light : added) addLight(light, parts, frame.*light.image);
 }
 
-void requireDistanceChannels(const ExrReader& file, const RecognizedLayout& layout) {
-  requirePlanes(file, layout, std::span(&kDistances, 1),
-                "A file whose name starts with 'distance' is one of distances; rename it if it is not.");
+void requireSpecularFile(const ExrReader& file, const RecognizedLayout& layout) {
+  requirePlanes(file, layout, layout.layout->specularFile,
+                "A file whose name starts with 'specular' tells distances and roughness; rename it if it does not.");
 }
 
-void readDistances(ExrReader& file, const RecognizedLayout& layout, const PixelRect& place, Frame& frame) {
+void readSpecularFile(ExrReader& file, const RecognizedLayout& layout, const PixelRect& place, Frame& frame) {
   file.requireBlocks();
-  Image sums;
+  std::map<Role, Image> sums;
   std::vector<ExrReader::Target> targets;
-  addTargets(targets, layout, kDistances, sums, place, 0.0F);
+  for (const Plane& plane : layout.layout->specularFile) {
+    addTargets(targets, layout, plane, sums[plane.role], place, 0.0F);
+  }
   file.read(targets, place);
   findNonFinite(file.path(), targets, false, frame.nonFinite);
-  frame.specularDistance = Image(place.size.x, place.size.y, 1);
-  for (std::size_t i = 0; i < sums.pixelCount(); ++i) {
-    const float nearness = sums.pixel(i)[0], reflected = sums.pixel(i)[1];
-    frame.specularDistance.values()[i] = nearness > 0.0F ? reflected / nearness : kBackgroundDepth;
+  frame.specularDistance = frame.roughness = Image(place.size.x, place.size.y, 1);
+  for (std::size_t i = 0; i < frame.roughness.pixelCount(); ++i) {
+    const std::span<const float> nearness = sums[Role::SpecularDistance].pixel(i);
+    const std::span<const float> roughness = sums[Role::Roughness].pixel(i);
+    frame.specularDistance.values()[i] = nearness[0] > 0.0F ? nearness[1] / nearness[0] : kBackgroundDepth;
+    frame.roughness.values()[i] = roughness[1] > 0.0F ? roughness[0] / roughness[1] : 1.0F;
   }
 }
 

@@ -85,7 +85,8 @@ struct Layout {
   /// Optional: specular light, the sum of all planes of its role, and what belongs to it. Read in all frames if the
   /// first frame has the light.
   std::span<const Plane> specular = {};
-  bool distanceFiles = false;     ///< Distances of specular light may lie in files of their own (`readDistances`).
+  /// What files of their own tell of specular light, if there are such files (`readSpecularFile`).
+  std::span<const Plane> specularFile = {};
   bool ownSpecularAlbedo = true;  ///< The specular albedo is the one of walr/specular_albedo.h.
 };
 
@@ -108,7 +109,7 @@ struct RecognizedLayout {
   std::string viewLayer;                       ///< Empty if the channels have no view-layer prefix.
   bool objectIds = false;                      ///< The file has `Layout::objectId`.
   std::vector<Plane> specular = {};            ///< Those of `Layout::specular` to be read; none without the light.
-  bool distanceFiles = false;                  ///< There are files of distances, see `Layout::distanceFiles`.
+  bool specularFiles = false;                  ///< There are files with `Layout::specularFile`.
   std::vector<AddedLight> added = {};          ///< Those of `Layout::added` that the file has.
   std::shared_ptr<const ChannelMap> map = {};  ///< Where channels are found, if a user says so; `layout` is its.
 
@@ -141,13 +142,13 @@ void requireReferenceChannels(const ExrReader& file, const RecognizedLayout& lay
 void readFrame(ExrReader& file, const RecognizedLayout& layout, const LightWish& wanted, const PixelRect& place,
                Frame& frame);
 
-/// Check that a file of distances has the channels that `readDistances` reads.
+/// Check that a file has `Layout::specularFile`.
 /// @throws InputError naming file and channels
-void requireDistanceChannels(const ExrReader& file, const RecognizedLayout& layout);
+void requireSpecularFile(const ExrReader& file, const RecognizedLayout& layout);
 
-/// Read `Frame::specularDistance` from a file that `blender/export_frames.py` has written: the pass `Combined` holds
-/// the mean of one over the distance in red, times the share of samples that reflected anything, which is in green.
-void readDistances(ExrReader& file, const RecognizedLayout& layout, const PixelRect& place, Frame& frame);
+/// Read `Frame::specularDistance` and `Frame::roughness` from a file that `blender/export_frames.py` has written. Red
+/// over green is the mean of one over the distance in one plane, and the roughness of the glossy lobes in the other.
+void readSpecularFile(ExrReader& file, const RecognizedLayout& layout, const PixelRect& place, Frame& frame);
 
 /// Read the wanted lights that a reference holds, and add its channels with non-finite values to `nonFinite`. The mean
 /// of one half of the samples is optional: the plane of the light with an A after its name (`IndirectA`).

@@ -123,7 +123,7 @@ void Sequence::scan() {
   }
   FilesByNumber frames;
   FilesByNumber references;
-  FilesByNumber distances;
+  FilesByNumber specular;
   fs::directory_iterator files(folder_, error);
   if (error) throw InputError("cannot read the folder " + folder_.string() + ": " + error.message());
   for (const fs::directory_entry& file : files) {
@@ -133,7 +133,7 @@ void Sequence::scan() {
       if (isNegative(stem)) {
         throw InputError(file.path().string() + " has a negative frame number; number the frames from 0 or more on");
       }
-      FilesByNumber& kind = stem.starts_with("ref") ? references : stem.starts_with("distance") ? distances : frames;
+      FilesByNumber& kind = stem.starts_with("ref") ? references : stem.starts_with("specular") ? specular : frames;
       addFile(kind, *number, file.path());
     }
   }
@@ -160,7 +160,7 @@ void Sequence::scan() {
     if (const auto reference = references.find(number); reference != references.end()) {
       entry.reference = reference->second;
     }
-    if (const auto found = distances.find(number); found != distances.end()) entry.distances = found->second;
+    if (const auto found = specular.find(number); found != specular.end()) entry.specular = found->second;
     entries_.push_back(std::move(entry));
   }
 }
@@ -171,7 +171,7 @@ void Sequence::checkHeaders() {
     const ExrReader file(entry.file, options_.stereoView);
     if (layout_.layout == nullptr) {
       layout_ = layoutOf(file);
-      chooseDistances();
+      chooseSpecularFiles();
       lossy_ = file.lossy();
       denoiserLayout_ =
           options_.motionDepth ? withMotionDepth(*layout_.layout, *options_.motionDepth, entry.file) : *layout_.layout;
@@ -184,10 +184,10 @@ void Sequence::checkHeaders() {
     }
     requireChannels(file, layout_, options_.light);
     checkDisplayWindow(file);
-    if (layout_.distanceFiles) {
-      const ExrReader distances(entry.distances, options_.stereoView);
-      requireDistanceChannels(distances, layout_);
-      checkDisplayWindow(distances);
+    if (layout_.specularFiles) {
+      const ExrReader specular(entry.specular, options_.stereoView);
+      requireSpecularFile(specular, layout_);
+      checkDisplayWindow(specular);
     }
     entry.dataWindow = file.dataWindow();
     place_ = united(place_, entry.dataWindow);
@@ -210,19 +210,18 @@ void Sequence::checkHeaders() {
   if (!options_.keptLight.everyPixel()) keepSomeLight();
 }
 
-void Sequence::chooseDistances() {
-  const auto has = [](const Entry& entry) { return !entry.distances.empty(); };
+void Sequence::chooseSpecularFiles() {
+  const auto has = [](const Entry& entry) { return !entry.specular.empty(); };
   const auto with = std::ranges::find_if(entries_, has);
   const bool wanted = options_.light.specular != SpecularWish::Nothing && !layout_.specular.empty();
-  layout_.distanceFiles = wanted && layout_.layout->distanceFiles && with != entries_.end();
-  if (!layout_.distanceFiles) {
-    for (Entry& entry : entries_) entry.distances.clear();
+  layout_.specularFiles = wanted && !layout_.layout->specularFile.empty() && with != entries_.end();
+  if (!layout_.specularFiles) {
+    for (Entry& entry : entries_) entry.specular.clear();
     return;
   }
   if (const auto without = std::ranges::find_if_not(entries_, has); without != entries_.end()) {
-    throw InputError(with->distances.string() + " has distances, but there are none for frame " +
-                     std::to_string(without->number) +
-                     ". Export the missing frames again, or remove all files of distances.");
+    throw InputError(with->specular.string() + " tells distances and roughness, but there is no such file for frame " +
+                     std::to_string(without->number) + ". Export the missing frames again, or remove all such files.");
   }
 }
 
@@ -325,10 +324,10 @@ Frame Sequence::read(std::size_t index) const {
   ExrReader file(entry.file, options_.stereoView);
   checkDisplayWindow(file);
   readFrame(file, layout_, options_.light, place_, frame);
-  if (!entry.distances.empty()) {
-    ExrReader distances(entry.distances, options_.stereoView);
-    checkDisplayWindow(distances);
-    readDistances(distances, layout_, place_, frame);
+  if (!entry.specular.empty()) {
+    ExrReader specular(entry.specular, options_.stereoView);
+    checkDisplayWindow(specular);
+    readSpecularFile(specular, layout_, place_, frame);
   } else if (options_.light.specular == SpecularWish::Denoised && frame.specularDistance.empty()) {
     frame.specularDistance = Image(place_.size.x, place_.size.y, 1);
     std::ranges::fill(frame.specularDistance.values(), kBackgroundDepth);

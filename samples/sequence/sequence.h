@@ -52,7 +52,7 @@ class Sequence {
     int number = 0;
     std::filesystem::path file;
     std::filesystem::path reference;  ///< Empty if there is none.
-    std::filesystem::path distances;  ///< See `readDistances`; empty unless wanted and there.
+    std::filesystem::path specular;   ///< See `readSpecularFile`; empty unless wanted and there.
     Camera camera;                    ///< Of the images of `read`.
     PixelRect dataWindow;
     glm::ivec2 lightOffset{0};  ///< See `FrameDescription::lightOffset`; in the images of `read`.
@@ -87,7 +87,7 @@ class Sequence {
  private:
   void scan();
   void checkHeaders();
-  void chooseDistances();
+  void chooseSpecularFiles();
   void checkDisplayWindow(const ExrReader& file) const;
   [[nodiscard]] RecognizedLayout layoutOf(const ExrReader& file) const;
   void placeImages();

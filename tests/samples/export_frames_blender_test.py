@@ -1,9 +1,10 @@
-"""Tests the distances of samples/blender/export_frames.py in Blender itself, where they are known: over a mirror.
+"""Tests what samples/blender/export_frames.py tells of reflections, in Blender itself, where it is known: over a mirror.
 
     blender -b --factory-startup --python-exit-code 1 --python export_frames_blender_test.py -- SAMPLES
 
 SAMPLES is the project's folder of that name. A camera looks straight down at a mirror, so that a reflected ray stays in
-its quadrant of the picture. Above each quadrant, there is something else.
+its quadrant of the picture. Above each quadrant, there is something else. In the picture's middle lies a rough thing below
+a rougher one that is all hole.
 """
 import json
 import pathlib
@@ -19,6 +20,7 @@ sys.path.insert(0, str(SAMPLES / "images"))
 import exr  # noqa: E402
 
 EYE = 2.0
+MIDDLE = 0.25  # Half side of the rough thing.
 CEILING = 6.0
 SIDE = 64
 # The pixel filter moves samples by up to a hundredth of a pixel, which is 1 / 3200 of the picture's half side: the distance
@@ -26,9 +28,9 @@ SIDE = 64
 TOLERANCE = 1e-3
 
 
-def sheet(x, y, z, material):
-    """A square of 100 x 100 units that covers a quadrant, or with 0, 0 all of them."""
-    bpy.ops.mesh.primitive_plane_add(size=100.0, location=(50.0 * x, 50.0 * y, z))
+def sheet(x, y, z, material, size=100.0):
+    """A square that covers a quadrant, or with 0, 0 the middle of all of them."""
+    bpy.ops.mesh.primitive_plane_add(size=size, location=(0.5 * size * x, 0.5 * size * y, z))
     if material is not None:
         bpy.context.object.data.materials.append(material)
 
@@ -61,6 +63,30 @@ def matte():
     return material
 
 
+def lobes():
+    """Three quarters of a lobe of roughness .2 and a quarter of one of 1, in a group of nodes."""
+    group = bpy.data.node_groups.new("lobes", "ShaderNodeTree")
+    if hasattr(group, "interface"):  # Since Blender 4.
+        group.interface.new_socket("Shader", in_out="OUTPUT", socket_type="NodeSocketShader")
+    else:
+        group.outputs.new("NodeSocketShader", "Shader")
+    mix = group.nodes.new("ShaderNodeMixShader")
+    mix.inputs["Fac"].default_value = 0.25
+    for place, roughness in ((1, 0.2), (2, 1.0)):
+        lobe = group.nodes.new("ShaderNodeBsdfAnisotropic")
+        lobe.inputs["Roughness"].default_value = roughness
+        group.links.new(lobe.outputs[0], mix.inputs[place])
+    group.links.new(mix.outputs[0], group.nodes.new("NodeGroupOutput").inputs[0])
+    material = bpy.data.materials.new("lobes")
+    material.use_nodes = True
+    tree = material.node_tree
+    node = tree.nodes.new("ShaderNodeGroup")
+    node.node_tree = group
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
+    return material
+
+
 def build():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
@@ -68,6 +94,8 @@ def build():
     scene.camera = bpy.context.object
     scene.render.resolution_x = scene.render.resolution_y = SIDE
     sheet(0, 0, 0.0, principled("mirror", Metallic=1.0, Roughness=0.0))
+    sheet(0, 0, 0.001, lobes(), 2.0 * MIDDLE)
+    sheet(0, 0, 0.1, principled("film", Alpha=0.0, Roughness=0.9), 4.0 * MIDDLE)
     sheet(-1, 1, CEILING, None)
     sheet(-1, -1, CEILING - 1.0, principled("hole", Alpha=0.0))
     sheet(-1, -1, CEILING, matte())
@@ -83,18 +111,29 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         sys.argv = ["blender", "--", "--output", folder, "--frames", "1"]
         runpy.run_path(str(SAMPLES / "blender" / "export_frames.py"), run_name="__main__")
-        channels = exr.read(pathlib.Path(folder) / "distance_0001.exr")
+        channels = exr.read(pathlib.Path(folder) / "specular_0001.exr")
         projection = json.loads((pathlib.Path(folder) / "cameras.json").read_text(encoding="utf-8"))["frames"][0]["projection"]
-    red, green = (next(values for name, values in channels.items() if name.endswith(f"Combined.{c}")) for c in "RG")
-    assert (green > 0.5).all(), "every pixel reflects something, or the sky"
+
+    def channel(name):
+        return next(values for key, values in channels.items() if key.endswith(name))
+
     x = (2.0 * (numpy.arange(SIDE) + 0.5) / SIDE - 1.0) / projection[0]
     right, up = numpy.meshgrid(x, -x)
+    away = EYE * numpy.maximum(numpy.abs(right), numpy.abs(up))
+    inside, outside = away < 0.9 * MIDDLE, away > 1.1 * MIDDLE
+    roughness = channel("Emit.R") / channel("Emit.G")
+    off = max(numpy.abs(roughness[inside] - 0.4).max(), numpy.abs(roughness[outside]).max())
+    assert off < 1e-6, f"roughness differs by up to {off}"  # Of half the last digit of a float, and sums of three numbers.
+
+    nearness, reflected = channel("GlossDir.R"), channel("GlossDir.G")
+    assert (reflected[outside] > 0.5).all(), "every pixel reflects something, or the sky"
     expected = CEILING * numpy.sqrt(1.0 + right * right + up * up)
     sky = (right > 0.0) & (up > 0.0)
-    assert (red[sky] == 0.0).all(), "nothing is reflected where there is only sky"
-    wrong = numpy.abs(green[~sky] / red[~sky] / expected[~sky] - 1.0)
+    assert (nearness[outside & sky] == 0.0).all(), "nothing is reflected where there is only sky"
+    met = outside & ~sky
+    wrong = numpy.abs(reflected[met] / nearness[met] / expected[met] - 1.0)
     assert wrong.max() < TOLERANCE, f"distances differ from those of the geometry by up to {wrong.max()}"
-    print(f"distances agree within {wrong.max():.1e}")
+    print(f"roughness agrees within {off:.1e}, distances within {wrong.max():.1e}")
 
 
 main()

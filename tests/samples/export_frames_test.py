@@ -98,7 +98,9 @@ NODES = {
     "ShaderNodeVolumeScatter": ("VOLUME_SCATTER", [], ["Volume"]),
     "ShaderNodeTexture": ("TEX_IMAGE", [], ["Color"]),
     "ShaderNodeBackground": ("BACKGROUND", ["Color"], ["Background"]),
-    "ShaderNodeOutputAOV": ("OUTPUT_AOV", ["Value"], []),
+    "ShaderNodeAddShader": ("ADD_SHADER", ["Shader", "Shader"], ["Shader"]),
+    "ShaderNodeGroupOutput": ("GROUP_OUTPUT", ["Shader"], []),
+    "ShaderNodeGroup": ("GROUP", [], ["Shader"]),
 }
 
 
@@ -123,6 +125,8 @@ class Links:
 
 
 class Tree:
+    bl_idname = "ShaderNodeTree"
+
     def __init__(self):
         self.nodes, self.links = Made(Node), Links()
 
@@ -194,6 +198,8 @@ def shade(socket, camera, length):
             return tuple(map(value, origin.node.inputs))
         return origin.node.type
 
+    if node.type == "ADD_SHADER":
+        return [each for shader in node.inputs for each in shade(shader, camera, length)]
     if node.type == "MIX_SHADER":
         share = value(node.inputs["Fac"])
         parts = [(1.0 - share, node.inputs[1]), (share, node.inputs[2])]
@@ -219,7 +225,7 @@ def layer(name, direct_volume):
                                  cycles=types.SimpleNamespace(denoising_store_passes=True, **volumes))
 
 
-def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materials=()):
+def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materials=(), groups=()):
     """The module bpy and its scene."""
     scene = types.SimpleNamespace(frame=0, rendered=[], asked=[], cycles=types.SimpleNamespace())
     scene.frame_set = lambda frame: setattr(scene, "frame", frame)
@@ -245,7 +251,7 @@ def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materia
     bpy.context = types.SimpleNamespace(scene=scene, evaluated_depsgraph_get=lambda: None)
     made = Made(Material)
     made.extend(materials)
-    bpy.data = types.SimpleNamespace(materials=made, worlds=Made(World))
+    bpy.data = types.SimpleNamespace(materials=made, worlds=Made(World), node_groups=groups)
     bpy.ops = types.SimpleNamespace(render=types.SimpleNamespace(render=render))
     return bpy, scene
 
@@ -283,58 +289,33 @@ class ExportFrames(unittest.TestCase):
         bpy, _ = blender(volume=False)
         self.assertIn("no use_pass_volume_direct", self.run_script(bpy, "--frames", "1"))
 
-    def test_materials_write_their_roughness(self):
-        number, texture = material(Roughness=0.25), material()
-        tree = texture.node_tree
-        image = tree.add("Texture", tree.nodes[-1].inputs["Roughness"])
-        bpy, scene = blender(materials=[number, texture])
-        self.assertNotIn("roughness", self.run_script(bpy, "--frames", "1"))
-        for written in number, texture:
-            [output] = [node for node in written.node_tree.nodes if node.type == "OUTPUT_AOV"]
-            self.assertEqual(output.name, "Roughness")
-            if written is number:
-                self.assertEqual(output.inputs["Value"].default_value, 0.25)
-            else:
-                self.assertIs(output.inputs["Value"].links[0].from_socket, image.outputs[0])
-        self.assertEqual([(aov.name, aov.type) for aov in scene.view_layers[0].aovs], [("Roughness", "VALUE")])
-
-    def test_a_pass_of_roughness_is_left_as_it_is(self):
-        bpy, scene = blender(materials=[material(Roughness=0.25)])
-        scene.view_layers[0].aovs.append(types.SimpleNamespace(name="Roughness", type="VALUE"))
-        self.run_script(bpy, "--frames", "1")
-        self.assertEqual(len(scene.view_layers[0].aovs), 1)
-        self.assertNotIn("OUTPUT_AOV", {node.type for node in bpy.data.materials[0].node_tree.nodes})
-
-    def test_several_lobes_have_neither_roughness_nor_distances(self):
-        several = material(Roughness=0.25)
-        tree = several.node_tree
-        first = tree.nodes[-1].outputs[0]
-        mix = tree.add("MixShader", several.surface, Fac=0.5)
-        tree.links.new(first, mix.inputs[1])
-        tree.add("BsdfPrincipled", mix.inputs[2])
-        before = list(tree.nodes)
-        bpy, scene = blender(materials=[material(Roughness=0.25), several])
-        self.assertIn("no pass of roughness", self.run_script(bpy, "--frames", "1"))
-        self.assertEqual(scene.view_layers[0].aovs, [])
-        self.assertEqual(tree.nodes, before)
-        self.assertEqual([file.name for file in sorted(self.output.iterdir())], ["cameras.json", "noisy_0001.exr"])
-
-    def test_distances_come_last(self):
+    def test_specular_files_come_last(self):
         bpy, scene = blender(materials=[material(Roughness=0.25)])
         text = self.run_script(bpy, "--frames", "4-5", "--spp", "2", "--reference-spp", "64")
-        self.assertIn("distance_0005.exr: rendered, 6 of 6, 0:00 left", text)
+        self.assertIn("specular_0005.exr: rendered, 6 of 6, 0:00 left", text)
         self.assertEqual([(frame, count) for frame, count, _ in scene.rendered],
                          [(4, 2), (4, 64), (5, 2), (5, 64), (4, 2), (5, 2)])
         seeds = [seed for _, _, seed in scene.rendered]
         self.assertEqual((seeds[4], seeds[5]), (seeds[0], seeds[2]))
-        self.assertEqual(scene.asked[4:], [{"use_pass_combined"}] * 2)
+        asked = {f"use_pass_{name}" for name in ("combined", "glossy_direct", "glossy_color", "emit")}
+        self.assertEqual(scene.asked[4:], [asked] * 2)
         self.assertGreater(len(scene.asked[3]), 10)
         self.assertTrue(text.rstrip().endswith("--composite --png --light all"), text)
         again, scene = blender(materials=[material(Roughness=0.25)])
-        self.assertIn("distance_0004.exr: already exists, skipped", self.run_script(again, "--frames", "4-6"))
+        self.assertIn("specular_0004.exr: already exists, skipped", self.run_script(again, "--frames", "4-6"))
         self.assertEqual([frame for frame, _, _ in scene.rendered], [6, 6])
 
-    def test_distances_are_light_of_what_is_reflected(self):
+    def test_scenes_without_a_lobe_have_no_specular_files(self):
+        matte = material()
+        matte.node_tree.nodes.remove(matte.node_tree.nodes[-1])
+        before = list(matte.node_tree.nodes)
+        bpy, _ = blender(materials=[matte, Material()])
+        text = self.run_script(bpy, "--frames", "1")
+        self.assertEqual([file.name for file in sorted(self.output.iterdir())], ["cameras.json", "noisy_0001.exr"])
+        self.assertTrue(text.rstrip().endswith("--composite --png"), text)
+        self.assertEqual(matte.node_tree.nodes, before)
+
+    def test_specular_files_show_lobes(self):
         plain = material(Roughness=0.25, Alpha=1.0)
         cutout = material(Roughness=0.75, Alpha=0.25)
         panes = material(Roughness=0.0, Alpha=1.0)  # Half of it glass, half a hole.
@@ -343,6 +324,9 @@ class ExportFrames(unittest.TestCase):
         hole = tree.add("MixShader", panes.surface, Fac=0.5)
         tree.links.new(pane, hole.inputs[1])
         tree.add("BsdfTransparent", hole.inputs[2])
+        textured = material(Alpha=1.0)
+        tree = textured.node_tree
+        tree.add("Texture", tree.nodes[-1].inputs["Roughness"])
         matte = Material()
         matte.use_nodes = True
         matte.node_tree.add("BsdfDiffuse", matte.surface)
@@ -350,26 +334,42 @@ class ExportFrames(unittest.TestCase):
         fog.use_nodes = True
         fog.node_tree.links.remove(fog.surface.links[0])
         fog.node_tree.add("VolumeScatter", fog.surface.node.inputs["Volume"])
-        bpy, scene = blender(materials=[plain, cutout, panes, matte, fog])
+        grouped = Material()
+        grouped.use_nodes = True
+        handed = grouped.node_tree.add("Group", grouped.surface)
+        group = Tree()
+        shared = group.add("GroupOutput").inputs["Shader"]
+        group.add("BsdfPrincipled", shared, Roughness=0.5, Alpha=1.0)
+        bpy, scene = blender(materials=[plain, cutout, panes, textured, matte, fog, grouped], groups=[group])
         self.run_script(bpy, "--frames", "1")
 
-        def seen(shown, camera):
-            return {closure[0]: (weight, *closure[1:]) for weight, closure in shade(shown.surface, camera, 4.0)}
+        def seen(surface, camera):
+            return {closure[0]: (weight, *closure[1:]) for weight, closure in shade(surface, camera, 4.0)}
 
-        white = (1.0, 1.0, 1.0, 1.0)
-        self.assertEqual(seen(plain, True), {"BSDF_ANISOTROPIC": (1.0, white, 0.25, 0.0)})
-        self.assertEqual(seen(plain, False), {"EMISSION": (1.0, (0.25, 1.0, 0.0))})
-        self.assertEqual(seen(cutout, True), {"BSDF_ANISOTROPIC": (0.25, white, 0.75, 0.0), "BSDF_TRANSPARENT": (0.75, 0.0)})
-        self.assertEqual(seen(cutout, False), {"EMISSION": (0.25, (0.25, 1.0, 0.0)), "BSDF_TRANSPARENT": (0.75, 0.0)})
-        self.assertEqual(seen(panes, False), {"EMISSION": (0.5, (0.25, 1.0, 0.0)), "BSDF_TRANSPARENT": (0.5, 0.0)})
-        self.assertEqual(seen(matte, True), {})
-        self.assertEqual(seen(matte, False), seen(plain, False))
-        self.assertEqual(seen(fog, False), {"BSDF_TRANSPARENT": (1.0, 0.0)})
+        def lobe(roughness, share=1.0):
+            return {"BSDF_ANISOTROPIC": (share, (1.0, 1.0, 1.0, 1.0), roughness, 0.0), "EMISSION": (share, (roughness, 1.0, 0.0))}
+
+        def hole(share):
+            return {"BSDF_TRANSPARENT": (share, 0.0)}
+
+        shine = {"EMISSION": (1.0, (0.25, 1.0, 0.0))}
+        self.assertEqual(seen(plain.surface, True), lobe(0.25))
+        self.assertEqual(seen(plain.surface, False), shine)
+        self.assertEqual(seen(cutout.surface, True), lobe(0.75, 0.25) | hole(0.75))
+        self.assertEqual(seen(cutout.surface, False), {"EMISSION": (0.25, (0.25, 1.0, 0.0))} | hole(0.75))
+        self.assertEqual(seen(panes.surface, False), {"EMISSION": (0.5, (0.25, 1.0, 0.0))} | hole(0.5))
+        self.assertEqual(seen(textured.surface, True), lobe("TEX_IMAGE"))
+        self.assertEqual(seen(matte.surface, True), {})
+        self.assertEqual(seen(matte.surface, False), shine)
+        self.assertEqual(seen(fog.surface, False), hole(1.0))
         self.assertFalse(fog.surface.node.inputs["Volume"].is_linked)
+        self.assertIs(grouped.surface.links[0].from_socket, handed.outputs[0])
+        self.assertEqual(seen(shared, True), lobe(0.5))
+        self.assertEqual(seen(shared, False), shine)
         # Lamps, the world, and a ball without a material.
         lamp, ball = scene.objects[1:]
         self.assertTrue(lamp.hide_render)
-        self.assertEqual(seen(ball.material_slots[0].material, False), seen(plain, False))
+        self.assertEqual(seen(ball.material_slots[0].material.surface, False), shine)
         self.assertEqual(scene.world.node_tree.nodes[0].inputs["Color"].default_value, (0.0, 1.0, 0.0, 1.0))
         self.assertEqual((plain.cycles.emission_sampling, fog.cycles.sample_as_light, scene.world.cycles.sampling_method),
                          ("NONE", False, "NONE"))

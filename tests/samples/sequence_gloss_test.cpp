@@ -89,75 +89,91 @@ TEST_F(GlossSequence, IsReadOnlyIfBothLightsAreThere) {
   EXPECT_TRUE(frame.specularAlbedo.empty());
 }
 
-/// Files of distances, as `blender/export_frames.py` writes them.
-class GlossDistances : public GlossSequence {
+/// Files of distances and roughness, as `blender/export_frames.py` writes them.
+class GlossFiles : public GlossSequence {
  protected:
-  GlossDistances() {
+  GlossFiles() {
     files.writeCameras(0, 1);
     files.writeReference(0, addGloss);
     for (const int number : {0, 1}) {
-      files.writeFrame(number, [](Channels& channels) {
-        addGloss(channels);
-        channels["Roughness.X"] = Image(6, 4, 1);
-      });
-      writeDistances(number);
+      files.writeFrame(number, addGloss);
+      write(number);
     }
     options.light = {.indirect = false, .specular = SpecularWish::Denoised};
   }
 
-  [[nodiscard]] std::filesystem::path distanceFile(int number) const {
-    return files.folder() / ("distance_000" + std::to_string(number) + ".exr");
+  [[nodiscard]] std::filesystem::path file(int number) const {
+    return files.folder() / ("specular_000" + std::to_string(number) + ".exr");
   }
 
-  // One of two samples met something at 4 units in the pixel (2, 2); in (3, 2) both left the scene; in (4, 2) none left
-  // the surface.
-  void writeDistances(int number, const test::Edit& edit = {}) const {
+  // One of two samples met something at 4 units in the pixel (2, 2), half of which is a lobe of roughness .25; in (3,
+  // 2) both left the scene; in (4, 2) none left the surface.
+  void write(int number, const test::Edit& edit = {}) const {
     Channels channels;
-    addColours(channels, "Combined", {0.0F, 0.0F, 0.0F});
-    channels["Combined.R"].at(2, 2, 0) = 0.125F;
-    channels["Combined.G"].at(2, 2, 0) = 0.5F;
-    channels["Combined.G"].at(3, 2, 0) = 1.0F;
+    for (const char* const plane : {"GlossDir", "Emit"}) addColours(channels, plane, {0.0F, 0.0F, 0.0F});
+    channels["GlossDir.R"].at(2, 2, 0) = 0.125F;
+    channels["GlossDir.G"].at(2, 2, 0) = 0.5F;
+    channels["GlossDir.G"].at(3, 2, 0) = 1.0F;
+    channels["Emit.R"].at(2, 2, 0) = 0.125F;
+    channels["Emit.G"].at(2, 2, 0) = 0.5F;
     if (edit) edit(channels);
-    test::writeChannels(distanceFile(number), channels);
+    test::writeChannels(file(number), channels);
   }
 };
 
-TEST_F(GlossDistances, AreReadWithTheLight) {
-  const Sequence sequence = open(options);
-  EXPECT_TRUE(sequence.layout().hasSpecular(Role::SpecularDistance));
-  const Frame frame = sequence.read(1);
-  EXPECT_EQ(frame.specularDistance.at(2, 2, 0), 4.0F);
-  EXPECT_EQ(frame.specularDistance.at(3, 2, 0), kBackgroundDepth);
-  EXPECT_EQ(frame.specularDistance.at(4, 2, 0), kBackgroundDepth);
-  EXPECT_TRUE(open().read(1).specularDistance.empty());
+TEST_F(GlossFiles, AreReadWithTheLight) {
+  // Where materials write roughness, too, the file knows better: such a pass adds up what lies behind a hole.
+  for (const bool pass : {false, true}) {
+    if (pass) {
+      for (const int number : {0, 1}) {
+        files.writeFrame(number, [](Channels& channels) {
+          addGloss(channels);
+          channels["Roughness.X"] = Image(6, 4, 1);
+        });
+      }
+    }
+    const Sequence sequence = open(options);
+    for (const Role role : {Role::SpecularDistance, Role::Roughness}) EXPECT_TRUE(sequence.layout().hasSpecular(role));
+    const Frame frame = sequence.read(1);
+    EXPECT_EQ(frame.specularDistance.at(2, 2, 0), 4.0F);
+    EXPECT_EQ(frame.specularDistance.at(3, 2, 0), kBackgroundDepth);
+    EXPECT_EQ(frame.specularDistance.at(4, 2, 0), kBackgroundDepth);
+    EXPECT_EQ(frame.roughness.at(2, 2, 0), 0.25F);
+    EXPECT_EQ(frame.roughness.at(3, 2, 0), 1.0F);
+    EXPECT_TRUE(open().read(1).specularDistance.empty());
+  }
 }
 
-TEST_F(GlossDistances, AreThereForAllFramesOrForNone) {
-  std::filesystem::remove(distanceFile(1));
-  expectRefused({"distance_0000.exr", "frame 1", "Export the missing frames"}, options);
-  std::filesystem::remove(distanceFile(0));
-  writeDistances(1);
-  expectRefused({"distance_0001.exr", "frame 0"}, options);
-  std::filesystem::remove(distanceFile(1));
+TEST_F(GlossFiles, AreThereForAllFramesOrForNone) {
+  std::filesystem::remove(file(1));
+  expectRefused({"specular_0000.exr", "frame 1", "Export the missing frames"}, options);
+  std::filesystem::remove(file(0));
+  write(1);
+  expectRefused({"specular_0001.exr", "frame 0"}, options);
+  std::filesystem::remove(file(1));
+  expectRefused({"noisy_0000.exr", "roughness", "export_frames.py"}, options);
+  for (const int number : {0, 1}) {
+    files.writeFrame(number, [](Channels& channels) {
+      addGloss(channels);
+      channels["Roughness.X"] = Image(6, 4, 1);
+    });
+  }
   EXPECT_FALSE(open(options).layout().hasSpecular(Role::SpecularDistance));
   EXPECT_EQ(open(options).read(0).specularDistance.at(2, 2, 0), kBackgroundDepth);
-  files.writeFrame(0, addGloss);
-  expectRefused({"noisy_0000.exr", "roughness", "export_frames.py"}, options);
   options.light.specular = SpecularWish::IfHeld;
   EXPECT_TRUE(open(options).read(0).specularDistance.empty());
 }
 
-TEST_F(GlossDistances, MustFitTheFrames) {
-  writeDistances(1, [](Channels& channels) { channels.erase("Combined.G"); });
-  expectRefused({"distance_0001.exr", "missing channel Combined.G", "'distance'"}, options);
-  writeDistances(1, [](Channels& channels) {
+TEST_F(GlossFiles, MustFitTheFrames) {
+  write(1, [](Channels& channels) { channels.erase("Emit.G"); });
+  expectRefused({"specular_0001.exr", "missing channel Emit.G", "'specular'"}, options);
+  write(1, [](Channels& channels) {
     for (auto& [name, image] : channels) image = Image(5, 4, 1);
   });
-  expectRefused({"distance_0001.exr", "5 x 4"}, options);
-  writeDistances(
-      1, [](Channels& channels) { channels["Combined.R"].at(1, 1, 0) = std::numeric_limits<float>::infinity(); });
+  expectRefused({"specular_0001.exr", "5 x 4"}, options);
+  write(1, [](Channels& channels) { channels["GlossDir.R"].at(1, 1, 0) = std::numeric_limits<float>::infinity(); });
   fg::test::expectError<InputError>([&] { static_cast<void>(open(options).read(1)); },
-                                    {"distance_0001.exr", "Combined.R", "(1, 1)"});
+                                    {"specular_0001.exr", "GlossDir.R", "(1, 1)"});
 }
 
 }  // namespace

@@ -365,17 +365,17 @@ TEST_F(ProgramTest, ACompositeThatIsNotDenoisedIsBlendersCombined) {
       }
     }
   };
-  Channels distances;
-  for (const char* const colour : {"R", "G"}) {
-    distances[std::string("ViewLayer.Combined.") + colour] = Image(width, height, 1);
+  Channels reflected;
+  for (const char* const channel : {"GlossDir.R", "GlossDir.G", "Emit.R", "Emit.G"}) {
+    reflected[std::string("ViewLayer.") + channel] = Image(width, height, 1);
   }
-  const std::filesystem::path distanceFile = input / "distance_0000.exr";
+  const std::filesystem::path specularFile = input / "specular_0000.exr";
   for (const bool specular : {false, true}) {
-    test::writeChannels(distanceFile, distances);
+    test::writeChannels(specularFile, reflected);
     std::vector<std::string> arguments{"--method", "none", "--composite"};
     if (specular) arguments.insert(arguments.end(), {"--light", "all"});
     for (const bool hasDistances : {true, false}) {
-      if (!hasDistances) std::filesystem::remove(distanceFile);
+      if (!hasDistances) std::filesystem::remove(specularFile);
       const ProcessResult result = denoise(arguments);
       expectSuccess(result);
       EXPECT_EQ(result.out.find("the frames have no") == std::string::npos, hasDistances || !specular) << result.out;
