@@ -378,10 +378,12 @@ TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
 
 TEST_F(ReflectionMotionTest, HardCasesAreFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const char* const name : {"walr", "svgf", "accumulate"}) {
+  using enum InputConventions::MotionDepth;
+  for (const auto& [name, motionDepth] :
+       {std::pair("walr", Given), std::pair("svgf", Given), std::pair("accumulate", Found)}) {
     SCOPED_TRACE(name);
     const auto method = makeDenoiser(name);
-    ReflectionRun run(device(), *method);
+    ReflectionRun run(device(), *method, {.motionDepth = motionDepth});
     for (const Mirror& mirror :
          {Mirror{kInfinity, 1.55}, Mirror{0.02, 0.0}, Mirror{-0.05, 1.2}, Mirror{kInfinity, 0.0}}) {
       run.reset();
