@@ -44,7 +44,7 @@ PASSES = [
 ]
 PASSES_OF_SPECULAR = ["combined", "glossy_direct", "glossy_color", "emit"]
 # Shaders with a glossy lobe, and nodes that let a ray pass or hand on other shaders.
-LOBES = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC", "BSDF_GLASS"}
+LOBES = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC", "BSDF_METALLIC", "BSDF_GLASS"}
 PASSED = {"BSDF_TRANSPARENT", "MIX_SHADER", "ADD_SHADER", "GROUP", "GROUP_INPUT", "REROUTE"}
 
 
@@ -142,10 +142,22 @@ def set_up(scene, size):
 
     layers = [layer for layer in scene.view_layers if layer.use]
     for layer in layers:
-        for name in PASSES:
-            ask_for_pass(layer, f"use_pass_{name}")
+        for name in choose_passes(layer, PASSES):
+            print(f"warning: this version of Blender has no pass {name}: composites will lack it")
         layer.cycles.denoising_store_passes = False
     return layers
+
+
+def choose_passes(layer, chosen):
+    """Returns the names of those that this version of Blender has not."""
+    missing = []
+    for name in PASSES:
+        # The settings of passes that only Cycles has are its own.
+        owners = [owner for owner in (layer, layer.cycles) if hasattr(owner, f"use_pass_{name}")]
+        missing += [] if owners else [name]
+        for owner in owners:
+            setattr(owner, f"use_pass_{name}", name in chosen)
+    return missing
 
 
 def shader_trees():
@@ -162,10 +174,13 @@ def show_specular(scene, layers):
     either light, red over green is the mean.
     """
     scene.cycles.max_bounces = 1
-    for thing in scene.objects:
-        if thing.type == "LIGHT":
-            thing.hide_render = True
-        elif hasattr(thing.data, "materials"):
+    scene.cycles.use_fast_gi = False
+    for light in bpy.data.lights:
+        light.animation_data_clear()
+        light.energy = 0.0
+    # Those that are only in instances, too.
+    for thing in bpy.data.objects:
+        if hasattr(thing.data, "materials"):
             give_material(thing)
     for material in bpy.data.materials:
         if not material.is_grease_pencil:
@@ -180,8 +195,7 @@ def show_specular(scene, layers):
     background.inputs["Color"].default_value = (0.0, 1.0, 0.0, 1.0)
     for layer in layers:
         layer.material_override = None
-        for name in PASSES:
-            ask_for_pass(layer, f"use_pass_{name}", name in PASSES_OF_SPECULAR)
+        choose_passes(layer, PASSES_OF_SPECULAR)
 
 
 def give_material(thing):
@@ -269,15 +283,6 @@ def copy_input(tree, source, target):
         tree.links.new(source.links[0].from_socket, target)
     else:
         target.default_value = source.default_value
-
-
-def ask_for_pass(layer, setting, wanted=True):
-    # The settings of passes that only Cycles has are its own.
-    owners = [owner for owner in (layer, layer.cycles) if hasattr(owner, setting)]
-    if not owners:
-        print(f"warning: this version of Blender has no {setting}: composites will lack that pass")
-    for owner in owners:
-        setattr(owner, setting, wanted)
 
 
 def numbers(matrix):

@@ -87,6 +87,15 @@ def lobes():
     return material
 
 
+def only_in_an_instance(thing):
+    collection = bpy.data.collections.new("store")
+    collection.objects.link(thing)
+    bpy.context.collection.objects.unlink(thing)
+    instance = bpy.data.objects.new("instance", None)
+    instance.instance_type, instance.instance_collection = "COLLECTION", collection
+    bpy.context.collection.objects.link(instance)
+
+
 def build():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
@@ -97,6 +106,7 @@ def build():
     sheet(0, 0, 0.001, lobes(), 2.0 * MIDDLE)
     sheet(0, 0, 0.1, principled("film", Alpha=0.0, Roughness=0.9), 4.0 * MIDDLE)
     sheet(-1, 1, CEILING, None)
+    only_in_an_instance(bpy.context.object)
     sheet(-1, -1, CEILING - 1.0, principled("hole", Alpha=0.0))
     sheet(-1, -1, CEILING, matte())
     sheet(1, -1, CEILING, principled("lamp", Roughness=1.0))
@@ -104,6 +114,7 @@ def build():
     bpy.context.object.data.materials.append(fog())
     # Shines on what reflects, and is no mesh.
     bpy.ops.object.light_add(type="AREA", location=(1.0, -1.0, CEILING - 2.0))
+    bpy.context.object.data.keyframe_insert("energy", frame=1)
 
 
 def main():

@@ -221,7 +221,8 @@ def layer(name, direct_volume):
     passes = ["combined", "z", "normal", "vector", "emit", "environment"]
     passes += [f"{light}_{part}" for light in ("diffuse", "glossy", "transmission") for part in ("direct", "indirect", "color")]
     volumes = {"use_pass_volume_direct": False, "use_pass_volume_indirect": False} if direct_volume else {}
-    return types.SimpleNamespace(name=name, use=True, aovs=Made(types.SimpleNamespace), material_override="clay", **{f"use_pass_{p}": False for p in passes},
+    asked = {f"use_pass_{name}": False for name in passes}
+    return types.SimpleNamespace(name=name, use=True, material_override="clay", **asked,
                                  cycles=types.SimpleNamespace(denoising_store_passes=True, **volumes))
 
 
@@ -232,8 +233,7 @@ def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materia
     lens = types.SimpleNamespace(type="PERSP", dof=types.SimpleNamespace(use_dof=False))
     camera = Thing(name="Camera", type="CAMERA", data=lens, scene=scene, moves=True)
     ball = types.SimpleNamespace(materials=[])
-    lamp = Thing(name="Lamp", type="LIGHT", data=None, scene=scene, moves=False, hide_render=False)
-    scene.objects = Objects([camera, lamp, Thing(name="Ball", type="MESH", data=ball, scene=scene, moves=moves,
+    scene.objects = Objects([camera, Thing(name="Ball", type="MESH", data=ball, scene=scene, moves=moves,
                                                  material_slots=[types.SimpleNamespace(material=None)])])
     scene.camera = camera
     settings = Refusing(media_type="IMAGE", use_exr_interleave=False) if five else types.SimpleNamespace()
@@ -251,7 +251,8 @@ def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materia
     bpy.context = types.SimpleNamespace(scene=scene, evaluated_depsgraph_get=lambda: None)
     made = Made(Material)
     made.extend(materials)
-    bpy.data = types.SimpleNamespace(materials=made, worlds=Made(World), node_groups=groups)
+    lamp = types.SimpleNamespace(energy=100.0, animation_data_clear=lambda: setattr(lamp, "animated", False), animated=True)
+    bpy.data = types.SimpleNamespace(materials=made, lights=[lamp], objects=scene.objects, worlds=Made(World), node_groups=groups)
     bpy.ops = types.SimpleNamespace(render=types.SimpleNamespace(render=render))
     return bpy, scene
 
@@ -287,7 +288,7 @@ class ExportFrames(unittest.TestCase):
 
     def test_warns_of_a_pass_that_blender_has_not(self):
         bpy, _ = blender(volume=False)
-        self.assertIn("no use_pass_volume_direct", self.run_script(bpy, "--frames", "1"))
+        self.assertIn("no pass volume_direct", self.run_script(bpy, "--frames", "1"))
 
     def test_specular_files_come_last(self):
         bpy, scene = blender(materials=[material(Roughness=0.25)])
@@ -367,8 +368,9 @@ class ExportFrames(unittest.TestCase):
         self.assertEqual(seen(shared, True), lobe(0.5))
         self.assertEqual(seen(shared, False), shine)
         # Lamps, the world, and a ball without a material.
-        lamp, ball = scene.objects[1:]
-        self.assertTrue(lamp.hide_render)
+        [lamp] = bpy.data.lights
+        self.assertEqual((lamp.energy, lamp.animated), (0.0, False))
+        ball = scene.objects[1]
         self.assertEqual(seen(ball.material_slots[0].material.surface, False), shine)
         self.assertEqual(scene.world.node_tree.nodes[0].inputs["Color"].default_value, (0.0, 1.0, 0.0, 1.0))
         self.assertEqual((plain.cycles.emission_sampling, fog.cycles.sample_as_light, scene.world.cycles.sampling_method),
