@@ -142,7 +142,10 @@ void Sequence::scan() {
                      " holds no frames: no .exr file with a number of one to nine digits at the end of its name" +
                      (references.empty() ? ""
                                          : "; " + references.begin()->second.filename().string() +
-                                               " is a reference, because its name begins with 'ref'"));
+                                               " is a reference, because its name begins with 'ref'") +
+                     (specular.empty() ? ""
+                                       : "; " + specular.begin()->second.filename().string() +
+                                             " only tells of reflections, because its name begins with 'specular'"));
   }
   const FrameRange range = options_.frames.value_or(FrameRange{frames.begin()->first, std::prev(frames.end())->first});
   for (int number = range.first; number <= range.last; ++number) {

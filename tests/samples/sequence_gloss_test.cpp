@@ -164,6 +164,11 @@ TEST_F(GlossFiles, AreThereForAllFramesOrForNone) {
   EXPECT_TRUE(open(options).read(0).specularDistance.empty());
 }
 
+TEST_F(GlossFiles, AreNoFrames) {
+  for (const int number : {0, 1}) std::filesystem::remove(files.frameFile(number));
+  expectRefused({"holds no frames", "specular_0000.exr", "'specular'"}, options);
+}
+
 TEST_F(GlossFiles, MustFitTheFrames) {
   write(1, [](Channels& channels) { channels.erase("Emit.G"); });
   expectRefused({"specular_0001.exr", "missing channel Emit.G", "'specular'"}, options);
