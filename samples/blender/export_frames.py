@@ -224,11 +224,12 @@ def show_lobes(tree):
     shaders = [(node, [link.to_socket for output in node.outputs if output.type == "SHADER" for link in output.links])
                for node in tree.nodes if node.type not in PASSED]
     path = tree.nodes.new("ShaderNodeLightPath")
+    red, reflected = add_light(tree)
     nearness = tree.nodes.new("ShaderNodeMath")
     nearness.operation = "DIVIDE"
     nearness.inputs[0].default_value = 1.0
     tree.links.new(path.outputs["Ray Length"], nearness.inputs[1])
-    reflected = add_light(tree, nearness.outputs[0])
+    tree.links.new(nearness.outputs[0], red)
     for node, targets in shaders:
         if not targets:
             continue
@@ -241,17 +242,13 @@ def show_lobes(tree):
             tree.links.new(replaced.outputs[0], target)
 
 
-def add_light(tree, red):
-    """Light with a value, the output of a node or a number, in red and 1 in green."""
+def add_light(tree):
+    """The input for the red of a light whose green is 1, and the light."""
     colour = tree.nodes.new("ShaderNodeCombineXYZ")
-    if isinstance(red, float):
-        colour.inputs["X"].default_value = red
-    else:
-        tree.links.new(red, colour.inputs["X"])
     colour.inputs["Y"].default_value = 1.0
     light = tree.nodes.new("ShaderNodeEmission")
     tree.links.new(colour.outputs[0], light.inputs["Color"])
-    return light.outputs[0]
+    return colour.inputs["X"], light.outputs[0]
 
 
 def add_lobe(tree, node):
@@ -259,14 +256,14 @@ def add_lobe(tree, node):
     lobe = tree.nodes.new("ShaderNodeBsdfAnisotropic")
     lobe.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     lobe.inputs["Anisotropy"].default_value = 0.0
-    roughness = node.inputs["Roughness"]
-    copy_input(tree, roughness, lobe.inputs["Roughness"])
+    red, light = add_light(tree)
+    for target in lobe.inputs["Roughness"], red:
+        copy_input(tree, node.inputs["Roughness"], target)
     if node.inputs["Normal"].is_linked:
         copy_input(tree, node.inputs["Normal"], lobe.inputs["Normal"])
     both = tree.nodes.new("ShaderNodeAddShader")
     tree.links.new(lobe.outputs[0], both.inputs[0])
-    told = roughness.links[0].from_socket if roughness.is_linked else roughness.default_value
-    tree.links.new(add_light(tree, told), both.inputs[1])
+    tree.links.new(light, both.inputs[1])
     return both.outputs[0]
 
 

@@ -226,6 +226,11 @@ void Sequence::chooseSpecularFiles() {
     throw InputError(with->specular.string() + " tells distances and roughness, but there is no such file for frame " +
                      std::to_string(without->number) + ". Export the missing frames again, or remove all such files.");
   }
+  // What the files tell needs no pass of the frames.
+  std::erase_if(layout_.specular, [&](const Plane& plane) {
+    return std::ranges::find(layout_.layout->specularFile, plane.role, &Plane::role) !=
+           layout_.layout->specularFile.end();
+  });
 }
 
 RecognizedLayout Sequence::layoutOf(const ExrReader& file) const {

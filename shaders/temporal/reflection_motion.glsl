@@ -182,8 +182,9 @@ vec3 positionBefore(HistoryTaps taps, int i, float depth) {
   return rayThrough(frame.previousRayFromPixel, q * frame.pixelFromPreviousPixel) * depth;
 }
 
-// How far the surface was in the previous frame over the depth that it would have if it stood still, as the plane of a
-// pixel says: of those at its place that face as it does, the one that says the least change. 1 if none does.
+// The surface's depth in the previous frame, over the depth that it would have if it stood still. The surface lay on the
+// plane of a pixel there: of the four at its place that face as it does, the one with the least change counts. 1 if
+// none fits.
 float foundDepthChange(ivec2 p, vec2 motion, Reflector still) {
   const HistoryTaps taps = tapsAround(p, motion, frame.previousPixelFromPixel);
   const ShownBefore shown = shownBefore(taps);

@@ -160,9 +160,7 @@ TEST_F(ReflectionMotionTest, AgreesWithTheReference) {
         HostFrame second = specularFrame(world.now, camera(1), 1.5, roughness);
         second.scene = description;
         second.conventions.motionDepth = motionDepth;
-        if (motionDepth == Found) {
-          for (glm::dvec3& motion : second.motion.pixels()) motion.z = NAN;  // Must not be read.
-        }
+        if (motionDepth == Found) forgetMotionDepth(second);
         reference::forEachPixel(kSize, [&](glm::ivec2 p) {
           // Distances, or no sample. On the right, something else came into view.
           const double distance = (p.x < 52 ? 1.0 : 2.0) + 0.5 * (p.x % 2);
@@ -225,9 +223,7 @@ TEST_F(ReflectionMotionTest, FoundDepthKeepsTheHistoryOfWhatComesNearer) {
       Mirror mirror{kInfinity, 0.4, 2.0, {0.0, 0.0, step}, {0.0, 0.0, i * step}};
       const auto number = static_cast<std::uint32_t>(i);
       HostFrame frame = specularFrame(mirror.scene(), zoomed(cameraAt({}, {}, kSize, number)), 1.5, roughness);
-      if (motionDepth != Given) {
-        for (glm::dvec3& motion : frame.motion.pixels()) motion.z = NAN;
-      }
+      if (motionDepth != Given) forgetMotionDepth(frame);
       run.frame(frame);
     }
     const Image<glm::dvec3> history = run.view(2);
@@ -379,8 +375,8 @@ TEST_F(ReflectionMotionTest, OnePassDoesWhatThreeDo) {
 TEST_F(ReflectionMotionTest, HardCasesAreFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   using enum InputConventions::MotionDepth;
-  for (const auto& [name, motionDepth] :
-       {std::pair("walr", Given), std::pair("svgf", Given), std::pair("accumulate", Found)}) {
+  for (const auto& [name, motionDepth] : {std::pair("walr", Given), std::pair("svgf", Given),
+                                          std::pair("accumulate", Given), std::pair("accumulate", Found)}) {
     SCOPED_TRACE(name);
     const auto method = makeDenoiser(name);
     ReflectionRun run(device(), *method, {.motionDepth = motionDepth});

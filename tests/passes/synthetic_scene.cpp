@@ -1,6 +1,7 @@
 #include "tests/passes/synthetic_scene.h"
 
 #include <cmath>
+#include <limits>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -271,6 +272,10 @@ HostFrame asSpecular(HostFrame frame, double distance, double roughness) {
 
 glm::dvec3 cameraPosition(double time) {
   return {0.09 * time, 0.04 * time, -0.03 * time};
+}
+
+void forgetMotionDepth(HostFrame& frame) {
+  for (glm::dvec3& motion : frame.motion.pixels()) motion.z = std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<HostFrame> movingFrames(const Scene& scene, glm::ivec2 size, std::uint32_t count, const Light& light,

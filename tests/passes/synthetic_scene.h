@@ -90,6 +90,9 @@ reference::HostFrame renderStill(const Scene& scene, glm::ivec2 size, std::uint3
 /// The frame as one of specular light: all pixels have this roughness, and reflect what lies at this distance.
 reference::HostFrame asSpecular(reference::HostFrame frame, double distance, double roughness);
 
+/// Makes the change of depth NaN, which must not be read where motion has no depth.
+void forgetMotionDepth(reference::HostFrame& frame);
+
 /// The first frames of the camera of `cameraPosition`.
 std::vector<reference::HostFrame> movingFrames(const Scene& scene, glm::ivec2 size, std::uint32_t count = 3,
                                                const Light& light = smoothLight, Noise noise = Noise::Exponential);

@@ -170,7 +170,7 @@ std::vector<HostFrame> approaching(double step, InputConventions::MotionDepth mo
     frames.push_back(movingFrame(approachingPanel(i, step), i, i - 1.0, i));
     frames.back().conventions.motionDepth = motionDepth;
     if (motionDepth == InputConventions::MotionDepth::Given) continue;
-    for (glm::dvec3& motion : frames.back().motion.pixels()) motion.z = std::numeric_limits<double>::quiet_NaN();
+    forgetMotionDepth(frames.back());
   }
   return frames;
 }

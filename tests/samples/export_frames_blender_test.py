@@ -36,29 +36,30 @@ def sheet(x, y, z, material, size=100.0):
 
 
 def principled(name, **values):
-    material = bpy.data.materials.new(name)
-    material.use_nodes = True
-    node = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    material, tree, _ = with_output(name)
+    node = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
     for key, value in values.items():
         node.inputs[key].default_value = value
     return material
 
 
-def fog():
-    material = bpy.data.materials.new("fog")
+def with_output(name):
+    """A material, its nodes, and the output node to link shaders to."""
+    material = bpy.data.materials.new(name)
     material.use_nodes = True
     tree = material.node_tree
-    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    return material, tree, next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+
+
+def fog():
+    material, tree, output = with_output("fog")
     tree.links.remove(output.inputs["Surface"].links[0])
     tree.links.new(tree.nodes.new("ShaderNodeVolumeScatter").outputs[0], output.inputs["Volume"])
     return material
 
 
 def matte():
-    material = bpy.data.materials.new("matte")
-    material.use_nodes = True
-    tree = material.node_tree
-    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    material, tree, output = with_output("matte")
     tree.links.new(tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0], output.inputs["Surface"])
     return material
 
@@ -77,12 +78,9 @@ def lobes():
         lobe.inputs["Roughness"].default_value = roughness
         group.links.new(lobe.outputs[0], mix.inputs[place])
     group.links.new(mix.outputs[0], group.nodes.new("NodeGroupOutput").inputs[0])
-    material = bpy.data.materials.new("lobes")
-    material.use_nodes = True
-    tree = material.node_tree
+    material, tree, output = with_output("lobes")
     node = tree.nodes.new("ShaderNodeGroup")
     node.node_tree = group
-    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
     tree.links.new(node.outputs[0], output.inputs["Surface"])
     return material
 

@@ -267,7 +267,7 @@ typedef enum WalrLightKind {
   WALR_LIGHT_DIFFUSE = 0, /* Light of the diffuse lobe, divided by WalrFrame::albedo. */
   /* Light of the specular lobe (reflections), divided by WalrFrame::specular_albedo. Its alpha is the distance from the
    * surface to what it reflects, scene units: 1e10 or infinity where the ray met nothing, 0 where there is no sample.
-   * Refused by name: methods that take diffuse light only, orthographic cameras, light groups and counted light. */
+   * Refused are methods that take diffuse light only, orthographic cameras, light groups and counted light. */
   WALR_LIGHT_SPECULAR = 1,
   WALR_LIGHT_KIND_MAX = 0x7fffffff
 } WalrLightKind;

@@ -163,32 +163,23 @@ bool Search::showsTheSame(glm::ivec2 q, double roughness) {
 
 double Search::foundDepthChange(const Mirror& still, glm::dvec2 pixel) {
   if (previous_.guides.pixels().empty() || !(glm::length(pixel) < 1e5)) return 1.0;
-  std::vector<double> changes;
+  constexpr double kRounding = 1e-5;  // Of a change, in single precision.
+  std::vector<Measured> changes;
   for (int i = 0; i < 4; ++i) {
     const glm::ivec2 q = glm::ivec2(glm::floor(pixel - 0.5)) + glm::ivec2(i % 2, i / 2);
     if (!previous_.guides.contains(q) || previous_.guides[q].depth == 0.0) continue;
     const glm::dvec3 normal = octahedralDecode(previous_.guides[q].features);
     const double cosine = glm::dot(still.normal, normal);
     result_.undecided |= close(cosine, settings_.thresholds.normalThreshold);
-    if (cosine < double(settings_.thresholds.normalThreshold)) continue;
     const glm::dvec3 shown =
         rayThrough(frame_.constants.previousRayFromPixel, pixelCentre(q)) * previous_.guides[q].depth;
     const glm::dvec3 plane = still.normal + normal;
-    changes.push_back(glm::dot(shown, plane) / glm::dot(still.position, plane));
+    changes.push_back({glm::dot(shown, plane) / glm::dot(still.position, plane), kRounding,
+                       cosine >= double(settings_.thresholds.normalThreshold)});
   }
-  constexpr double kMostChange = 0.1;
-  constexpr double kRounding = 1e-5;  // Of a change, in single precision.
-  const auto sizeOf = [](double change) { return std::abs(change - 1.0); };
-  std::erase_if(changes, [&](double change) {
-    result_.undecided |= std::abs(sizeOf(change) - kMostChange) < kRounding;
-    return sizeOf(change) > kMostChange;
-  });
-  if (changes.empty()) return 1.0;
-  const double least = *std::ranges::min_element(changes, {}, sizeOf);
-  result_.undecided |= std::ranges::any_of(changes, [&](double change) {
-    return std::abs(change - least) > kRounding && sizeOf(change) - sizeOf(least) < kRounding;
-  });
-  return least;
+  const OwnValue change = nearestTap(changes, 1.0, settings_.thresholds.planeTolerance);
+  result_.undecided |= change.undecided;
+  return change.found ? change.value : 1.0;
 }
 
 std::optional<Mirror> Search::shownAt(glm::dvec2 position, const Mirror& surface, bool& whole, glm::dvec2 beyond) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -111,23 +110,6 @@ Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::
   return r;
 }
 
-namespace {
-
-/// What the tests of a history tap measure.
-struct Measured {
-  double value = 0.0;      ///< Distance from the previous camera along the surface's normal or, by depth, view axis.
-  double error = 0.0;      ///< Bound of what single precision adds to its difference from the surface's.
-  bool candidate = false;  ///< The tap passes all other tests.
-};
-
-/// A surface's own value of `Measured`.
-struct OwnValue {
-  double value = 0.0;
-  bool found = true;
-  bool undecided = false;  ///< Rounding may decide which tap it is taken from.
-};
-
-/// The value of the candidate nearest to that of a still surface, if it is within a tenth of it, or the tolerance.
 OwnValue nearestTap(std::span<const Measured> taps, double still, double tolerance) {
   constexpr double kMostDepthChange = 0.1;
   const double most = std::max(kMostDepthChange * std::abs(still), tolerance);
@@ -148,8 +130,6 @@ OwnValue nearestTap(std::span<const Measured> taps, double still, double toleran
   }
   return nearest;
 }
-
-}  // namespace
 
 std::array<HistoryTap, 4> historyTaps(const HostFrame& frame, const Reprojection& r, const Image<Guide>& previousGuides,
                                       const HistoryTests& tests, const TapGrid& grid) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "passes/guides/history_tests.h"
 #include "tests/passes/reference/guides.h"
@@ -33,6 +34,21 @@ glm::ivec2 followedPixel(const Image<Guide>& guides, glm::ivec2 p, const Reproje
 /// or by the camera alone, and its depth there by `motion.z`.
 Reprojection reproject(const HostFrame& frame, const Image<Guide>& guides, glm::ivec2 p,
                        const ReprojectionOptions& options = {});
+
+/// What the tests of a history tap measure.
+struct Measured {
+  double value = 0.0;      ///< Distance from the previous camera along the surface's normal or, by depth, view axis.
+  double error = 0.0;      ///< Bound of what single precision adds to its difference from the surface's.
+  bool candidate = false;  ///< The tap passes all other tests.
+};
+/// A surface's own value of `Measured`.
+struct OwnValue {
+  double value = 0.0;
+  bool found = true;
+  bool undecided = false;  ///< Rounding may decide which tap it is taken from.
+};
+/// The value of the candidate nearest to that of a still surface, if it is within a tenth of it, or the tolerance.
+OwnValue nearestTap(std::span<const Measured> taps, double still, double tolerance);
 
 /// The tests by which a history tap is accepted (passes/WALR.md, 2).
 struct HistoryTests {
