@@ -46,6 +46,8 @@ PASSES_OF_SPECULAR = ["combined", "glossy_direct", "glossy_color", "emit"]
 # Shaders with a glossy lobe, and nodes that let a ray pass or hand on other shaders.
 LOBES = {"BSDF_PRINCIPLED", "BSDF_GLOSSY", "BSDF_ANISOTROPIC", "BSDF_METALLIC", "BSDF_GLASS"}
 PASSED = {"BSDF_TRANSPARENT", "MIX_SHADER", "ADD_SHADER", "GROUP", "GROUP_INPUT", "REROUTE"}
+# Materials and worlds of Blender 5 always have nodes, and Blender 6 no longer knows the setting.
+ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
 
 
 def fail(message):
@@ -139,6 +141,8 @@ def set_up(scene, size):
     cycles.sample_clamp_indirect = 0.0
     cycles.light_sampling_threshold = 0.0
     cycles.time_limit = 0.0
+    # A view layer may have a number of samples of its own.
+    cycles.use_layer_samples = "IGNORE"
 
     layers = [layer for layer in scene.view_layers if layer.use]
     for layer in layers:
@@ -163,7 +167,14 @@ def choose_passes(layer, chosen):
 def shader_trees():
     """The nodes of all materials and of their groups."""
     groups = [group for group in bpy.data.node_groups if group.bl_idname == "ShaderNodeTree"]
-    return [material.node_tree for material in bpy.data.materials if material.use_nodes] + groups
+    owners = [material for material in bpy.data.materials if ALWAYS_NODES or material.use_nodes]
+    return [owner.node_tree for owner in owners if owner.node_tree is not None] + groups
+
+
+def give_nodes(shining):
+    """To a material or a world."""
+    if not ALWAYS_NODES:
+        shining.use_nodes = True
 
 
 def show_specular(scene, layers):
@@ -173,6 +184,11 @@ def show_specular(scene, layers):
     is reflected shines with one over the length of the ray in red and with 1 in green, the sky with 1 in green only. Of
     either light, red over green is the mean.
     """
+    # What is linked or being edited cannot be changed.
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    if bpy.data.libraries:
+        bpy.ops.object.make_local(type="ALL")
     scene.cycles.max_bounces = 1
     scene.cycles.use_fast_gi = False
     for light in bpy.data.lights:
@@ -184,12 +200,12 @@ def show_specular(scene, layers):
             give_material(thing)
     for material in bpy.data.materials:
         if not material.is_grease_pencil:
-            material.use_nodes = True
+            give_nodes(material)
             aim_no_rays_at(material)
     for tree in shader_trees():
         show_lobes(tree)
     scene.world = bpy.data.worlds.new("Specular")
-    scene.world.use_nodes = True
+    give_nodes(scene.world)
     aim_no_rays_at(scene.world)
     background = next(node for node in scene.world.node_tree.nodes if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = (0.0, 1.0, 0.0, 1.0)

@@ -85,16 +85,21 @@ def lobes():
     return material
 
 
-def only_in_an_instance(thing):
+def only_in_an_instance(thing, library):
+    """Puts a thing into a file of its own, which the scene links."""
     collection = bpy.data.collections.new("store")
     collection.objects.link(thing)
-    bpy.context.collection.objects.unlink(thing)
+    bpy.data.libraries.write(str(library), {collection})
+    bpy.data.objects.remove(thing)
+    bpy.data.collections.remove(collection)
+    with bpy.data.libraries.load(str(library), link=True) as (_, linked):
+        linked.collections = ["store"]
     instance = bpy.data.objects.new("instance", None)
-    instance.instance_type, instance.instance_collection = "COLLECTION", collection
+    instance.instance_type, instance.instance_collection = "COLLECTION", linked.collections[0]
     bpy.context.collection.objects.link(instance)
 
 
-def build():
+def build(library):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     bpy.ops.object.camera_add(location=(0.0, 0.0, EYE))
@@ -104,7 +109,7 @@ def build():
     sheet(0, 0, 0.001, lobes(), 2.0 * MIDDLE)
     sheet(0, 0, 0.1, principled("film", Alpha=0.0, Roughness=0.9), 4.0 * MIDDLE)
     sheet(-1, 1, CEILING, None)
-    only_in_an_instance(bpy.context.object)
+    only_in_an_instance(bpy.context.object, library)
     sheet(-1, -1, CEILING - 1.0, principled("hole", Alpha=0.0))
     sheet(-1, -1, CEILING, matte())
     sheet(1, -1, CEILING, principled("lamp", Roughness=1.0))
@@ -116,25 +121,26 @@ def build():
 
 
 def main():
-    build()
     with tempfile.TemporaryDirectory() as folder:
+        build(pathlib.Path(folder) / "library.blend")
         sys.argv = ["blender", "--", "--output", folder, "--frames", "1"]
         runpy.run_path(str(SAMPLES / "blender" / "export_frames.py"), run_name="__main__")
         channels = exr.read(pathlib.Path(folder) / "specular_0001.exr")
         projection = json.loads((pathlib.Path(folder) / "cameras.json").read_text(encoding="utf-8"))["frames"][0]["projection"]
 
-    def channel(name):
-        return next(values for key, values in channels.items() if key.endswith(name))
+    def channel(*names):
+        return next(values for key, values in channels.items() if key.endswith(names))
 
     x = (2.0 * (numpy.arange(SIDE) + 0.5) / SIDE - 1.0) / projection[0]
     right, up = numpy.meshgrid(x, -x)
     away = EYE * numpy.maximum(numpy.abs(right), numpy.abs(up))
     inside, outside = away < 0.9 * MIDDLE, away > 1.1 * MIDDLE
-    roughness = channel("Emit.R") / channel("Emit.G")
+    # Since Blender 5, the second name.
+    roughness = channel("Emit.R", "Emission.R") / channel("Emit.G", "Emission.G")
     off = max(numpy.abs(roughness[inside] - 0.4).max(), numpy.abs(roughness[outside]).max())
     assert off < 1e-6, f"roughness differs by up to {off}"  # Of half the last digit of a float, and sums of three numbers.
 
-    nearness, reflected = channel("GlossDir.R"), channel("GlossDir.G")
+    nearness, reflected = (channel(f"GlossDir.{c}", f"Glossy Direct.{c}") for c in "RG")
     assert (reflected[outside] > 0.5).all(), "every pixel reflects something, or the sky"
     expected = CEILING * numpy.sqrt(1.0 + right * right + up * up)
     sky = (right > 0.0) & (up > 0.0)

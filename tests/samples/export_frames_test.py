@@ -144,7 +144,7 @@ class Tree:
 
 
 class Material(types.SimpleNamespace):
-    """Without nodes, as new ones are. A user gets a Principled BSDF with them."""
+    """Without nodes, as new ones are until Blender 5. A user gets a Principled BSDF with them."""
 
     def __init__(self, name="", old=False):
         setting = {"sample_as_light": True} if old else {"emission_sampling": "AUTO"}
@@ -167,6 +167,27 @@ class World(types.SimpleNamespace):
         super().__init__(name=name, use_nodes=False, cycles=types.SimpleNamespace(sampling_method="AUTOMATIC"),
                          node_tree=Tree())
         self.node_tree.add("Background")
+
+
+def since_five(kind):
+    """Materials or worlds that have nodes from the start, and know nothing of the setting, as those of Blender 6."""
+    class SinceFive(kind):
+        def __init__(self, *arguments):
+            super().__init__(*arguments)
+            self.use_nodes = True
+            self.complete = True
+
+        def __getattribute__(self, name):
+            if name == "use_nodes":
+                raise AttributeError(name)
+            return super().__getattribute__(name)
+
+        def __setattr__(self, name, value):
+            if name == "use_nodes" and hasattr(self, "complete"):
+                raise AttributeError(name)
+            super().__setattr__(name, value)
+
+    return SinceFive
 
 
 def material(**values):
@@ -248,12 +269,21 @@ def blender(layers=("ViewLayer",), moves=False, five=False, volume=True, materia
         pathlib.Path(scene.render.filepath).write_text("pixels", encoding="utf-8")
 
     bpy = types.ModuleType("bpy")
-    bpy.context = types.SimpleNamespace(scene=scene, evaluated_depsgraph_get=lambda: None)
-    made = Made(Material)
+    bpy.app = types.SimpleNamespace(version=(5, 2, 0) if five else (4, 3, 0))
+    bpy.context = types.SimpleNamespace(scene=scene, mode="EDIT_MESH", evaluated_depsgraph_get=lambda: None)
+    made = Made(since_five(Material) if five else Material)
     made.extend(materials)
     lamp = types.SimpleNamespace(energy=100.0, animation_data_clear=lambda: setattr(lamp, "animated", False), animated=True)
-    bpy.data = types.SimpleNamespace(materials=made, lights=[lamp], objects=scene.objects, worlds=Made(World), node_groups=groups)
-    bpy.ops = types.SimpleNamespace(render=types.SimpleNamespace(render=render))
+    bpy.data = types.SimpleNamespace(materials=made, lights=[lamp], objects=scene.objects, node_groups=groups,
+                                     worlds=Made(since_five(World) if five else World), libraries=["linked.blend"])
+
+    def make_local(type):
+        assert type == "ALL" and bpy.context.mode == "OBJECT"
+        bpy.data.libraries.clear()
+
+    bpy.ops = types.SimpleNamespace(
+        render=types.SimpleNamespace(render=render),
+        object=types.SimpleNamespace(make_local=make_local, mode_set=lambda mode: setattr(bpy.context, "mode", mode)))
     return bpy, scene
 
 
@@ -282,6 +312,7 @@ class ExportFrames(unittest.TestCase):
                     if name.startswith("use_pass_"):
                         self.assertTrue(value, name)
             self.assertFalse(chosen.cycles.denoising_store_passes)
+            self.assertEqual(scene.cycles.use_layer_samples, "IGNORE")
             self.assertEqual(scene.render.image_settings.file_format, "OPEN_EXR_MULTILAYER")
             if five:
                 self.assertTrue(scene.render.image_settings.use_exr_interleave)
@@ -377,6 +408,16 @@ class ExportFrames(unittest.TestCase):
                          ("NONE", False, "NONE"))
         self.assertEqual(scene.cycles.max_bounces, 1)
         self.assertIsNone(scene.view_layers[0].material_override)
+        self.assertFalse(bpy.data.libraries)
+
+    def test_since_blender_5_all_materials_have_nodes(self):
+        given = since_five(Material)()
+        ink = since_five(Material)()  # Of grease pencil, which has none.
+        ink.is_grease_pencil, ink.node_tree = True, None
+        bpy, scene = blender(five=True, materials=[given, ink])
+        self.run_script(bpy, "--frames", "1")
+        self.assertEqual(len(scene.rendered), 2)
+        self.assertEqual({closure[0] for _, closure in shade(given.surface, True, 4.0)}, {"BSDF_ANISOTROPIC", "EMISSION"})
 
     def test_shows_the_remaining_time_and_the_command(self):
         bpy, scene = blender()
