@@ -144,6 +144,9 @@ BenchReport bench(const GpuDevice& device, const std::vector<NamedSequence>& seq
     }
     log << sequence.name << ": " << options.variants.size() - missing.size() << " of " << options.variants.size()
         << " variants have been run already" << std::endl;
+    if (const std::string assumption = sequence.sequence.assumption(); !assumption.empty()) {
+      log << sequence.name << ": " << assumption << std::endl;
+    }
     todo.batches = batchesOf(missing, options.variants.front(), options.batch);
     frames += todo.batches.size() * sequence.sequence.entries().size() * (options.repetitions + 1);
     work.push_back(std::move(todo));

@@ -1,7 +1,8 @@
 """Renders frames of a Blender scene with Cycles, for `walr denoise`.
 
     blender -b scene.blend --python samples/blender/export_frames.py -- \\
-        --output DIR --frames A-B [--size WIDTHxHEIGHT] [--spp N] [--reference-spp M] [--camera NAME]
+        --output DIR --frames A-B [--size WIDTHxHEIGHT] [--spp N] [--reference-spp M] [--camera NAME] \\
+        [--cycles-device DEVICE]
 
 writes to DIR, in the layout of samples/docs/sequences.md ("Blender Cycles"):
 
@@ -79,6 +80,8 @@ def parse_arguments():
     parser.add_argument("--spp", type=samples, default=1, help="samples per pixel of the noisy frames; default 1")
     parser.add_argument("--reference-spp", type=samples, default=0, help="samples per pixel of references; 0: none")
     parser.add_argument("--camera", help="name of the camera object; default: the scene's")
+    # Cycles reads it, too, from the same place.
+    parser.add_argument("--cycles-device", help="where Cycles renders, as OPTIX or CPU; default: as in the preferences")
     arguments = parser.parse_args(own)
     first, last = pair(arguments.frames, "-", "--frames", "1-24") if "-" in arguments.frames else (
         pair(f"{arguments.frames}-{arguments.frames}", "-", "--frames", "1-24"))

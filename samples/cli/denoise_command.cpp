@@ -59,8 +59,7 @@ struct DenoiseOptions {
   SequenceOptions sequence;
 };
 
-void describeInput(std::ostream& stream, const std::filesystem::path& input, const Sequence& sequence,
-                   const LightWish& wanted) {
+void describeInput(std::ostream& stream, const std::filesystem::path& input, const Sequence& sequence) {
   const auto& entries = sequence.entries();
   const RecognizedLayout& layout = sequence.layout();
   stream << "input: " << input.string() << ", frames " << entries.front().number << " to " << entries.back().number
@@ -71,11 +70,7 @@ void describeInput(std::ostream& stream, const std::filesystem::path& input, con
   if (const LightPattern& light = sequence.denoiserLayout().conventions.light; !light.everyPixel()) {
     stream << "sparse light: one sample in " << light.columns << " x " << light.rows << " pixels\n";
   }
-  if (wanted.specular == SpecularWish::Denoised && !layout.hasSpecular(Role::SpecularDistance)) {
-    stream
-        << "specular light: the frames have no distances to what is reflected, which is taken to be far away, so that "
-           "mirrors are less sharp\n";
-  }
+  if (const std::string assumption = sequence.assumption(); !assumption.empty()) stream << assumption << '\n';
   if (sequence.place() != sequence.displayWindow()) {
     const PixelRect& place = sequence.place();
     const glm::ivec2 corner = place.corner - sequence.displayWindow().corner;
@@ -298,7 +293,7 @@ void denoise(DenoiseOptions& options) {
   refuseHoles(options, lights, sequence);
   prepareOutputDirectory(options.output.directory);
   if (!options.json.empty()) prepareOutputFile(options.json);
-  describeInput(std::cout, options.input, sequence, options.sequence.light);
+  describeInput(std::cout, options.input, sequence);
   if (options.average > 1) {
     std::cout << "pictures: " << pictures.width << " x " << pictures.height << ", means over " << options.average
               << " x " << options.average << " pixels\n";

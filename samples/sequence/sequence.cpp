@@ -116,6 +116,12 @@ bool Sequence::hasReferences() const {
   return std::ranges::any_of(entries_, [](const Entry& entry) { return !entry.reference.empty(); });
 }
 
+std::string Sequence::assumption() const {
+  if (options_.light.specular != SpecularWish::Denoised || layout_.hasSpecular(Role::SpecularDistance)) return {};
+  return "specular light: the frames have no distances to what is reflected, which is taken to be far away, so that "
+         "mirrors are less sharp";
+}
+
 void Sequence::scan() {
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {

@@ -77,6 +77,8 @@ class Sequence {
   /// A frame without its images.
   [[nodiscard]] Frame describe(std::size_t index) const;
   [[nodiscard]] bool hasReferences() const;
+  /// What is taken for granted because the files do not tell it, for the user to know; empty if nothing is.
+  [[nodiscard]] std::string assumption() const;
   /// See `ExrReader::lossy`; of the first frame.
   [[nodiscard]] bool lossy() const { return lossy_; }
 

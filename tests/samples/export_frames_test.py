@@ -305,7 +305,7 @@ class ExportFrames(unittest.TestCase):
     def test_asks_for_every_pass(self):
         for five in (False, True):
             bpy, scene = blender(five=five)
-            self.run_script(bpy, "--frames", "1")
+            self.run_script(bpy, "--frames", "1", "--cycles-device", "CPU")  # An option of Cycles.
             chosen = scene.view_layers[0]
             for owner in (chosen, chosen.cycles):
                 for name, value in vars(owner).items():

@@ -140,6 +140,7 @@ TEST_F(GlossFiles, AreReadWithTheLight) {
     EXPECT_EQ(frame.specularDistance.at(4, 2, 0), kBackgroundDepth);
     EXPECT_EQ(frame.roughness.at(2, 2, 0), 0.25F);
     EXPECT_EQ(frame.roughness.at(3, 2, 0), 1.0F);
+    EXPECT_EQ(sequence.assumption(), "");
     EXPECT_TRUE(open().read(1).specularDistance.empty());
   }
 }
@@ -160,7 +161,9 @@ TEST_F(GlossFiles, AreThereForAllFramesOrForNone) {
   }
   EXPECT_FALSE(open(options).layout().hasSpecular(Role::SpecularDistance));
   EXPECT_EQ(open(options).read(0).specularDistance.at(2, 2, 0), kBackgroundDepth);
+  EXPECT_NE(open(options).assumption().find("taken to be far away"), std::string::npos);
   options.light.specular = SpecularWish::IfHeld;
+  EXPECT_EQ(open(options).assumption(), "");
   EXPECT_TRUE(open(options).read(0).specularDistance.empty());
 }
 
