@@ -27,6 +27,10 @@ bool sameCamera(const render::View& a, const render::View& b) {
   return a.viewFromWorld == b.viewFromWorld && a.jitter == b.jitter && a.width == b.width && a.height == b.height;
 }
 
+glm::vec4 sphereAround(const render::Box& box) {
+  return {0.5F * (box.low + box.high), 0.5F * glm::distance(box.low, box.high)};
+}
+
 /// Adds the direct light to the indirect light and sets the direct light to 0.
 void moveDirect(Image& direct, Image& indirect) {
   std::ranges::transform(indirect.values(), direct.values(), indirect.values().begin(), std::plus<>());
@@ -38,7 +42,8 @@ void moveDirect(Image& direct, Image& indirect) {
 Tracer::Content::Content(const Options& options, bool onDevice)
     : scene(render::loadScene(options.scene, options.sky)),
       camera(render::findCamera(scene, options.camera)),
-      world(scene, onDevice ? render::RayCasting::None : render::RayCasting::Embree) {
+      world(scene, onDevice ? render::RayCasting::None : render::RayCasting::Embree),
+      bounds(sphereAround(render::boundingBox(scene, world.nodes()))) {
   scene.specular = options.specular;
 }
 
@@ -81,11 +86,6 @@ int Tracer::lastAnimationFrame() const {
   }
   // Rounded, because times in float fall short of their frames: float(95 / 24.0) * 24 is less than 95.
   return static_cast<int>(std::lround(std::clamp(last * options_.framesPerSecond, 0.0, double{FrameRange::kMost})));
-}
-
-glm::vec4 Tracer::bounds() const {
-  const render::Box box = render::boundingBox(content_->scene, content_->world.nodes());
-  return {0.5F * (box.low + box.high), 0.5F * glm::distance(box.low, box.high)};
 }
 
 float Tracer::exposure(double animationFrame) {

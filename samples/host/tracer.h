@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
 
 #include "framegraph/declare/graph.h"
 #include "passes/conventions/light_pattern.h"
@@ -80,6 +81,7 @@ class Tracer {
     render::Scene scene;
     std::uint32_t camera;
     render::World world;
+    glm::vec4 bounds;                                        ///< See `Tracer::bounds`.
     std::unique_ptr<gpu_render::GpuScene> device = nullptr;  ///< Null if the processor traces, and before `prepare`.
     std::optional<float> exposure = std::nullopt;            ///< At the start of the animation; see `Tracer::exposure`.
   };
@@ -105,8 +107,8 @@ class Tracer {
   [[nodiscard]] glm::mat4 sceneCamera(double animationFrame) const;
   /// Number of the frame that is nearest to the animation's end; 0 for a static scene.
   [[nodiscard]] int lastAnimationFrame() const;
-  /// Centre (x, y, z) and radius (w) of a bounding sphere of the scene, in scene units.
-  [[nodiscard]] glm::vec4 bounds() const;
+  /// Centre (x, y, z) and radius (w) of a bounding sphere of the scene at the start of its animation, in scene units.
+  [[nodiscard]] glm::vec4 bounds() const { return content_->bounds; }
 
   /// Exposure in stops for what the scene's camera shows in a frame of the animation: `autoExposure` of a small
   /// picture; 0 if that is black.
