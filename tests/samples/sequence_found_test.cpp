@@ -52,10 +52,10 @@ TEST_F(FoundSequence, AttributesOfAnotherTypeAreNamed) {
   const fs::path file = directory.path() / "f0.exr";
   const auto write = [&](const std::function<void(Imf::Header&)>& add) {
     Imf::Header header(1, 1);
-    for (const char* name : {"worldToCamera", "previousWorldToCamera", "cameraToClip"}) {
-      header.insert(name, Imf::M44fAttribute(Imath::M44f()));
-    }
     add(header);
+    for (const char* name : {"worldToCamera", "previousWorldToCamera", "cameraToClip"}) {
+      if (header.find(name) == header.end()) header.insert(name, Imf::M44fAttribute(Imath::M44f()));
+    }
     header.channels().insert("A", Imf::Channel(Imf::HALF));
     Imf::OutputFile(file.c_str(), header);  // No pixels are read.
   };
@@ -64,7 +64,7 @@ TEST_F(FoundSequence, AttributesOfAnotherTypeAreNamed) {
     std::initializer_list<std::string_view> parts;
     std::function<void(const ExrReader&)> read;
   } cases[] = {
-      {[](auto& h) { h.erase("worldToCamera"), h.insert("worldToCamera", Imf::M44dAttribute(Imath::M44d())); },
+      {[](auto& h) { h.insert("worldToCamera", Imf::M44dAttribute(Imath::M44d())); },
        {"f0.exr", "worldToCamera", "m44d", "m44f"},
        [](const auto& f) { static_cast<void>(f.matrix("worldToCamera")); }},
       {[](auto& h) {
