@@ -19,6 +19,20 @@ void checkInterface(VkResult result) {
   fg::vk::check(result, "drawing the interface");
 }
 
+/// Passes the render pass on where the version of Dear ImGui takes it.
+template <typename Info>
+void initialise(Info& info, VkRenderPass renderPass) {
+  if constexpr (requires { info.PipelineInfoMain; }) {  // Since 1.92.4.
+    info.PipelineInfoMain.RenderPass = renderPass;
+    ImGui_ImplVulkan_Init(&info);
+  } else if constexpr (requires { info.RenderPass; }) {  // Since 1.90.4.
+    info.RenderPass = renderPass;
+    ImGui_ImplVulkan_Init(&info);
+  } else {
+    ImGui_ImplVulkan_Init(&info, renderPass);
+  }
+}
+
 }  // namespace
 
 Interface::Interface(const GpuDevice& device, const Window& window, std::uint32_t framesInFlight)
@@ -29,13 +43,16 @@ Interface::Interface(const GpuDevice& device, const Window& window, std::uint32_
   ImGui::StyleColorsDark();
   ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
 
-  constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
+  // As many as any version of Dear ImGui asks for. Since April 2026, samplers are apart.
+  constexpr std::array kSizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8},
+                              VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 8},
+                              VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLER, 2}};
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
-  info.maxSets = kSize.descriptorCount;
-  info.poolSizeCount = 1;
-  info.pPoolSizes = &kSize;
+  for (const VkDescriptorPoolSize& size : kSizes) info.maxSets += size.descriptorCount;
+  info.poolSizeCount = kSizes.size();
+  info.pPoolSizes = kSizes.data();
   fg::vk::check(vkCreateDescriptorPool(device.device().context().view.device, &info, nullptr, &descriptors_),
                 "creating a descriptor pool");
 }
@@ -60,9 +77,8 @@ void Interface::prepare(VkRenderPass renderPass, fg::vk::FrameQueue& queue) {
   info.DescriptorPool = descriptors_;
   info.MinImageCount = std::max(2U, framesInFlight_);
   info.ImageCount = info.MinImageCount;
-  info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
   info.CheckVkResultFn = checkInterface;
-  ImGui_ImplVulkan_Init(&info, renderPass);
+  initialise(info, renderPass);
   prepared_ = true;
 #if IMGUI_VERSION_NUM < 19000
   const fg::vk::Frame upload = queue.begin();
