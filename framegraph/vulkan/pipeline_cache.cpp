@@ -73,7 +73,8 @@ void PipelineCache::save() {
   getData(nullptr);
   std::vector<char> bytes(size);
   getData(bytes.data());
-  bytes.resize(size);
+  // Mesa's software driver tells fewer bytes than its header has, all of which it writes (seen with 26.2.6).
+  bytes.resize(std::max(size, std::min(bytes.size(), sizeof(VkPipelineCacheHeaderVersionOne))));
   if (bytes == loaded_) return;
 
   // Programs that write at the same time each have a name of their own, and the last to rename wins.

@@ -294,8 +294,9 @@ void requireWithinLimits(const PixelRect& window) {
 }
 
 std::int64_t exrLinesInBlock(std::uint8_t compression) {
-  // In the order of the specification: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
-  constexpr std::array kLines{1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+  // In the order of the specification: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB, and since OpenEXR 3.4
+  // HTJ2K256 and HTJ2K32, which older libraries refuse.
+  constexpr std::array kLines{1, 1, 1, 16, 32, 16, 32, 32, 32, 256, 256, 32};
   if (compression >= kLines.size()) throw Fault("it has the unknown compression " + std::to_string(compression));
   return kLines.at(compression);
 }

@@ -62,8 +62,13 @@ Function load(VkDevice device, const char* name) {
 VkPhysicalDevice firstDevice(VkInstance instance) {
   std::uint32_t count = 1;
   VkPhysicalDevice device = VK_NULL_HANDLE;
-  require(vkEnumeratePhysicalDevices(instance, &count, &device), "listing devices");
-  if (count == 0) throw std::runtime_error("the driver has no device");
+  const VkResult result = vkEnumeratePhysicalDevices(instance, &count, &device);
+  if (result == VK_ERROR_INITIALIZATION_FAILED || count == 0) {
+    throw NoNullDevice(
+        "Mesa's driver for AMD GPUs has no null device, which newer versions (seen: 26.2) no longer offer; those of "
+        "Debian 12 and 13 (22.3, 25.0) do");
+  }
+  require(result, "listing devices");
   return device;
 }
 

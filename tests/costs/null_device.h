@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,9 +31,16 @@ struct CompiledShader {
 /// @returns false if the driver is not installed
 bool selectRadv();
 
+/// Thrown where the driver has no null device.
+class NoNullDevice : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A device of Mesa's driver for AMD GPUs that is no hardware: it compiles pipelines and can do nothing else.
 class NullDevice {
  public:
+  /// @throws NoNullDevice
   /// @throws std::runtime_error naming the call that failed, or the device that is none of Mesa's null devices
   NullDevice();
   ~NullDevice();

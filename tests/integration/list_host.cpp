@@ -11,8 +11,11 @@ void check(VkResult result) {
 }
 
 /// Bring an image into a state, if it is in another.
+/// Between two writes, there is a barrier also if the state is the same.
 void transition(VkCommandBuffer commands, HostImage& image, const WalrImageState& to) {
-  if (image.stage == to.stage && image.access == to.access && image.layout == to.layout) return;
+  constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+  const bool same = image.stage == to.stage && image.access == to.access && image.layout == to.layout;
+  if (same && (to.access & ~kReads) == 0) return;
   host_transition(commands, &image, to.stage, to.access, to.layout);
 }
 

@@ -14,6 +14,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/OpenEXRConfig.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -143,8 +144,13 @@ TEST(Exr, AHeaderThatClaimsMoreThanTheFileHoldsIsRefusedBeforeMemoryIsAllocated)
   }
   writeOfCompression(file, Imf::NO_COMPRESSION);
   widen(file, 127, 63);
-  fg::test::expectError<InputError>([&] { ExrReader(file).requireBlocks(); },
-                                    {"widened.exr", "256 bytes", "claims 512"});
+  const auto read = [&] { ExrReader(file).requireBlocks(); };
+  // OpenEXR finds that itself since 3.4.
+  if (100 * OPENEXR_VERSION_MAJOR + OPENEXR_VERSION_MINOR < 304) {
+    fg::test::expectError<InputError>(read, {"widened.exr", "256 bytes", "claims 512"});
+  } else {
+    fg::test::expectError<InputError>(read, {"widened.exr"});
+  }
 }
 
 TEST(Exr, OnlyAWholeImageIsComplete) {
