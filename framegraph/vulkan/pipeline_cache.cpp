@@ -73,7 +73,7 @@ void PipelineCache::save() {
   getData(nullptr);
   std::vector<char> bytes(size);
   getData(bytes.data());
-  // Mesa's software driver tells fewer bytes than its header has, all of which it writes (seen with 26.2.6).
+  // Mesa's software driver writes its whole header, but returns a smaller size (seen with 26.2.6).
   bytes.resize(std::max(size, std::min(bytes.size(), sizeof(VkPipelineCacheHeaderVersionOne))));
   if (bytes == loaded_) return;
 

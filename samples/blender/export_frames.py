@@ -80,7 +80,7 @@ def parse_arguments():
     parser.add_argument("--spp", type=samples, default=1, help="samples per pixel of the noisy frames; default 1")
     parser.add_argument("--reference-spp", type=samples, default=0, help="samples per pixel of references; 0: none")
     parser.add_argument("--camera", help="name of the camera object; default: the scene's")
-    # Cycles reads it, too, from the same place.
+    # Cycles itself reads this option from the command line.
     parser.add_argument("--cycles-device", help="where Cycles renders, as OPTIX or CPU; default: as in the preferences")
     arguments = parser.parse_args(own)
     first, last = pair(arguments.frames, "-", "--frames", "1-24") if "-" in arguments.frames else (
@@ -175,7 +175,7 @@ def shader_trees():
 
 
 def give_nodes(shining):
-    """To a material or a world."""
+    """Makes a material or a world use nodes."""
     if not ALWAYS_NODES:
         shining.use_nodes = True
 

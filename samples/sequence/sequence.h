@@ -77,7 +77,7 @@ class Sequence {
   /// A frame without its images.
   [[nodiscard]] Frame describe(std::size_t index) const;
   [[nodiscard]] bool hasReferences() const;
-  /// What is taken for granted because the files do not tell it, for the user to know; empty if nothing is.
+  /// What is assumed because the files do not tell it, as a sentence for the user; empty if nothing is.
   [[nodiscard]] std::string assumption() const;
   /// See `ExrReader::lossy`; of the first frame.
   [[nodiscard]] bool lossy() const { return lossy_; }

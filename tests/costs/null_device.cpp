@@ -63,12 +63,13 @@ VkPhysicalDevice firstDevice(VkInstance instance) {
   std::uint32_t count = 1;
   VkPhysicalDevice device = VK_NULL_HANDLE;
   const VkResult result = vkEnumeratePhysicalDevices(instance, &count, &device);
-  if (result == VK_ERROR_INITIALIZATION_FAILED || count == 0) {
+  if (result == VK_ERROR_INITIALIZATION_FAILED) {
     throw NoNullDevice(
         "Mesa's driver for AMD GPUs has no null device, which newer versions (seen: 26.2) no longer offer; those of "
         "Debian 12 and 13 (22.3, 25.0) do");
   }
   require(result, "listing devices");
+  if (count == 0) throw std::runtime_error("the driver has no device");
   return device;
 }
 

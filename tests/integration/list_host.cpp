@@ -10,8 +10,7 @@ void check(VkResult result) {
   if (result != VK_SUCCESS) throw std::runtime_error("VkResult " + std::to_string(result));
 }
 
-/// Bring an image into a state, if it is in another.
-/// Between two writes, there is a barrier also if the state is the same.
+/// Bring an image into a state. Nothing is needed if the image is in it already, and the state only reads.
 void transition(VkCommandBuffer commands, HostImage& image, const WalrImageState& to) {
   constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
   const bool same = image.stage == to.stage && image.access == to.access && image.layout == to.layout;

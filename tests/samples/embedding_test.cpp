@@ -34,7 +34,7 @@ class EmbeddingTest : public testing::Test {
         all, {.environment = {{"VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"},
                               {"VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"},
                               {"VK_LAYER_SYNCVAL_SHADER_ACCESSES_HEURISTIC", "true"},  // From 1.4 of the layer on.
-                              // Since then, it has another name for the second of these, and says so.
+                              // Newer layers warn that VK_LAYER_ENABLES is deprecated.
                               {"VK_LAYER_MESSAGE_ID_FILTER", "VALIDATION-SETTINGS"}},
               .largestFileBytes = {}});
   }

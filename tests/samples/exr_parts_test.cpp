@@ -110,7 +110,7 @@ TEST_F(ExrParts, NamesWithControlCharactersAreSafeToPrint) {
 TEST_F(ExrParts, TellsWhetherTheCompressionChangesValues) {
   for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression) {
     write({.parts = {ExrPart{.channels = {"Y"}, .compression = static_cast<Imf::Compression>(compression)}}});
-    // The last four are B44, B44A, DWAA and DWAB.
+    // B44, B44A, DWAA and DWAB.
     const bool lossy = compression >= Imf::B44_COMPRESSION && compression <= Imf::DWAB_COMPRESSION;
     EXPECT_EQ(ExrReader(file).lossy(), lossy) << compression;
   }

@@ -124,7 +124,7 @@ TEST(Tracer, FollowsTheFrameBefore) {
   EXPECT_EQ(cut.camera.view, glm::mat4(1.0F));
   EXPECT_EQ(tracer.lastAnimationFrame(), 47);
   EXPECT_GT(bounds.w, 2.0F);
-  // Others ask for them while the scene moves.
+  // The window asks for them while another thread moves the scene.
   EXPECT_EQ(tracer.bounds(), bounds);
 }
 

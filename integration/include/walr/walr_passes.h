@@ -57,8 +57,8 @@ typedef struct WalrResource {
    * barrier, and in which it leaves it, after `releases`. A barrier into `entry` has it as its destination (stage,
    * access and new layout), a barrier out of `exit` as its source. Buffers have no layout. Both are zero if the
    * resource is not used, and for WALR_RESOURCE_LIBRARY.
-   * - WALR_RESOURCE_HOST: `entry` is the first use, to which all writes of the host must be visible. Where `exit` and
-   *   the next frame's `entry` are the same write, as of an output, a barrier between them is needed all the same.
+   * - WALR_RESOURCE_HOST: `entry` is the first use, to which all writes of the host must be visible. An output
+   *   enters and leaves a frame in the same state, a write: two frames still need a barrier between them.
    * - WALR_RESOURCE_UPLOAD: likewise. What the CPU writes before the submission is visible.
    * - WALR_RESOURCE_HISTORY_PREVIOUS: `entry` equals the `exit` of the partner, in which the last frame left the image.
    *   If there is no last frame, or its history is dropped, wait for `entry`, fill the image with zeros and bring it

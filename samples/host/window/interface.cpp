@@ -43,7 +43,7 @@ Interface::Interface(const GpuDevice& device, const Window& window, std::uint32_
   ImGui::StyleColorsDark();
   ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
 
-  // As many as any version of Dear ImGui asks for. Since April 2026, samplers are apart.
+  // As many as any version of Dear ImGui asks for. Since April 2026, its samplers have descriptors of their own.
   constexpr std::array kSizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8},
                               VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 8},
                               VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLER, 2}};
