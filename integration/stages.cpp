@@ -121,7 +121,7 @@ void prepareGuidesWithOcclusion(StagePorts& ports, const OcclusionStageSettings&
 
 void setOutputs(StagePorts& ports, const AccumulatedLight& light) {
   ports.setOutput("accumulated", light.mean);
-  if (light.antilag.valid()) ports.setOutput(kAntilagFactor, light.antilag);
+  if (light.antilag.factor.valid()) ports.setOutput(kAntilagFactor, light.antilag.factor);
 }
 
 void temporalAccumulation(StagePorts& ports, const AccumulationStageSettings& settings) {

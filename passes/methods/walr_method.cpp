@@ -36,8 +36,8 @@ BlockRegressionSettings fittedBlocks(const WalrSettings& settings, std::uint32_t
 }
 
 std::optional<CurrentAntilag> antilagOf(const Accumulated& accumulated, const TemporalAccumulationSettings& settings) {
-  if (!accumulated.antilag.valid()) return std::nullopt;
-  return CurrentAntilag{accumulated.antilag, settings.maxHistory};
+  if (!accumulated.antilag.factor.valid()) return std::nullopt;
+  return CurrentAntilag{accumulated.antilag.factor, settings.maxHistory};
 }
 
 GuideNeeds needsOf(const WalrSettings& settings, const TemporalPlan& plan) {
@@ -65,7 +65,7 @@ fg::Texture addSpecularWalr(StageGraph graph, const DenoiserInputs& inputs, fg::
                                               .reflectors = reflectors,
                                               .accumulated = accumulated.lighting,
                                               .lighting = inputs.lighting,
-                                              .antilag = accumulated.antilag,
+                                              .antilag = accumulated.antilag.factor,
                                               .maxHistory = accumulation.maxHistory},
                                              filterTarget(graph, plan, output));
   return addAntialiasing(graph, inputs, guides, plan, accumulated, filtered, output);
@@ -79,14 +79,15 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
                                                   .antialiasing = settings.antialiasing,
                                                   .spatialOnly = settings.spatialOnly});
   BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
-  // Reconstruction with blocks.residual measures where history is too long. In the next frame, antilag then shortens
-  // it, and anti-aliasing its own.
+  // Reconstruction with blocks.residual measures where history is too long, or may be longer. In the next frame,
+  // antilag then changes its length, and that of anti-aliasing.
   std::optional<SteeredHistory> history;
   if (blocks.share.enabled) {
-    history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory);
+    history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory, settings.restFactor);
     if (settings.accumulation.antilag.enabled) {
-      plan.leastAntilag = history->leastAntilag.previous;
-      plan.shortening = history->shortening.previous;
+      plan.steering = history->limits.previous;
+      plan.accumulation.restFactor = settings.restFactor;
+      plan.antialiasing.restFactor = settings.restFactor;
     }
   }
   const auto [guides, accumulated] =

@@ -20,6 +20,8 @@ struct WalrSettings {
                                             .thresholds = kStrictThresholds,
                                             .antilag = {.enabled = true},
                                             .storage = LightStorage::Packed};
+  /// Of both temporal stages. More hardly gains anything: then noise is taken for a change of light too often.
+  float restFactor = 6.0F;
   /// Wide windows need less history, and a short one blurs less what moves on the surface.
   float maxSpecularHistory = 5.0F;
   AmbientOcclusionSettings occlusion;
@@ -35,6 +37,11 @@ struct WalrSettings {
             spatialOnly);
     guides.visit(v);
     accumulation.visitAmounts(v, kDiffuseLight);
+    v.visit({"accumulation.rest-factor",
+             "With antilag and blocks.residual: where the picture is at rest and the light does not change, both "
+             "temporal stages may have so many times as long a history",
+             "", 1.0, 16.0, "measured", kDiffuseLight},
+            restFactor);
     visitMaxSpecularHistory(v, maxSpecularHistory);
     accumulation.visitStorage(v);
     SettingsOfLight fits(v, kDiffuseLight);

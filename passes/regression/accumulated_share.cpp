@@ -17,10 +17,8 @@ constexpr float kQuietMemory = 2.0F;
 
 }  // namespace
 
-SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory) {
-  const fg::Extent tiles = antilagTiles(pixels);
-  return {graph.history("least antilag factor", {VK_FORMAT_R32_SFLOAT, tiles}),
-          graph.history("anti-aliasing shortening", {VK_FORMAT_R32_UINT, tiles}), maxHistory};
+SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory, float restFactor) {
+  return {graph.history("steered history", {VK_FORMAT_R32G32_SFLOAT, antilagTiles(pixels)}), maxHistory, restFactor};
 }
 
 void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const AccumulatedShareInputs& inputs,
@@ -37,7 +35,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       graph->history("residual agreement" + ofTiles, {VK_FORMAT_R16G16B16A16_SFLOAT, inputs.tiles});
   // Without a history that somebody steers, history may be as long as packed light can count.
   const SteeredHistory history =
-      inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples);
+      inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples, 1.0F);
 
   apply.specialize("kPackedMean", packed)
       .sampleIf(packed, "accumulatedPacked", inputs.accumulated, inputs.guides.depth)
@@ -55,8 +53,6 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
   const fg::Texture innovationSums = apply.store(
       "outInnovationSums", graph->texture("innovation sums", {VK_FORMAT_R32G32B32A32_SFLOAT, inputs.tiles}));
 
-  // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
-  const float bias = 0.5F * settings.innovationBias / history.maxHistory;
   fg::PassBuilder pass = graph->compute("residual statistics", shaders::residualStatistics);
   pass.uniform("frameConstants", inputs.frame)
       .sample("fitDepth", inputs.blockDepth)
@@ -64,7 +60,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .sample("innovationSums", innovationSums)
       .sample("previousStatistics", statistics.previous)
       .sample("previousAgreement", agreement.previous)
-      .sample("previousLeastAntilag", history.leastAntilag.previous)
+      .sample("previousSteering", history.limits.previous)
       .specialize("kTileSize", inputs.tileSize)
       .specialize("kRadius", settings.radius)
       .specialize("kBlockSize", inputs.blockSize)
@@ -72,8 +68,10 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
                                              .kept = 1.0F - 1.0F / settings.frames,
                                              .keptQuiet = 1.0F - 1.0F / (kQuietMemory * settings.frames),
                                              .maxHistory = history.maxHistory,
+                                             .maxHistoryAtRest = history.restFactor * history.maxHistory,
                                              .innovationGain = settings.innovationGain,
-                                             .innovationBias = bias,
+                                             // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
+                                             .innovationBias = 0.5F * settings.innovationBias,
                                              .residualGain = settings.gain,
                                              .residualEdgeGain = settings.edgeGain,
                                              .quietShare = kQuietShare * settings.leastShare,
@@ -82,8 +80,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       .dispatch(inputs.tiles);
   static_cast<void>(pass.store("outStatistics", statistics.current));
   static_cast<void>(pass.store("outAgreement", agreement.current));
-  static_cast<void>(pass.store("outLeastAntilag", history.leastAntilag.current));
-  static_cast<void>(pass.store("outShortening", history.shortening.current));
+  static_cast<void>(pass.store("outSteering", history.limits.current));
 }
 
 }  // namespace walr

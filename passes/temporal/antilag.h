@@ -41,21 +41,29 @@ struct AntilagSettings {
 
 /// Textures that temporal accumulation and antilag exchange: a texel for each tile of 8 x 8 pixels.
 struct Antilag {
-  /// R16G16_SFLOAT: 0 where history counts in full, 1 where it does not count; the brightest sample that the next frame
-  /// lets pass.
+  /// R16G16_SFLOAT: 0 where history counts in full, 1 where it does not count, below 0 where it may be longer at rest;
+  /// the brightest sample that the next frame lets pass.
   fg::History factor;
   /// R32G32B32A32_SFLOAT: sums over a tile of d and d^2, where d is the luminance of this frame's sample less that of
   /// history, of squares of samples, and the number of samples.
   fg::Texture tiles;
-  /// R32_SFLOAT, a texel for each tile, or invalid: the least factor that the last frame's measurements of the noise
-  /// allow (`SteeredHistory`).
-  fg::Texture least;
+  /// `SteeredHistory::limits` of the previous frame, or invalid.
+  fg::Texture steering;
+};
+
+/// What antilag says of this frame.
+struct AntilagResult {
+  fg::Texture factor;  ///< `Antilag::factor` of this frame.
+  /// With `Antilag::steering`, R32_UINT, a texel for each tile: bits of a float, how far anti-aliasing shortens its
+  /// history, from 0 (not at all) to 1 (to none), or below 0, how much longer at rest it may be: -3 is four times as
+  /// long. An integer, so that other textures can stand in for it where it is not read.
+  fg::Texture shortening;
 };
 
 /// Declare the textures.
 /// @param pixels the image's extent
-/// @param least  `Antilag::least`
-Antilag declareAntilag(StageGraph graph, fg::Extent pixels, fg::Texture least = {});
+/// @param steering `Antilag::steering`
+Antilag declareAntilag(StageGraph graph, fg::Extent pixels, fg::Texture steering = {});
 
 /// Tiles of an image.
 fg::Extent antilagTiles(fg::Extent pixels);
@@ -63,8 +71,7 @@ fg::Extent antilagTiles(fg::Extent pixels);
 /// Add the pass that computes the antilag factor of this frame. Accumulation reads it in the next frame.
 /// @param antilag as the accumulation of this frame wrote it
 /// @param maxHistory longest history, frames
-/// @returns `Antilag::factor` of this frame
 /// @throws std::invalid_argument if antilag-low is not below antilag-high
-fg::Texture addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings, float maxHistory);
+AntilagResult addAntilag(StageGraph graph, const Antilag& antilag, const AntilagSettings& settings, float maxHistory);
 
 }  // namespace walr

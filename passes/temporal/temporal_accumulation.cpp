@@ -1,5 +1,6 @@
 #include "passes/temporal/temporal_accumulation.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -64,14 +65,13 @@ struct Stage {
 };
 
 Stage stageOf(StageGraph graph, fg::Extent extent, const DenoiserInputs& inputs, const Guides& guides,
-              const TemporalAccumulationSettings& settings, bool keepTaps, fg::Texture leastAntilag,
-              bool onGrid = false) {
+              const TemporalAccumulationSettings& settings, bool keepTaps, fg::Texture steering, bool onGrid = false) {
   const fg::Extent accumulated = onGrid ? inputs.conventions.light.lightingExtent(extent) : extent;
   const char* const name = onGrid ? "accumulated on the light grid" : "accumulated";
   Stage stage{graph,       inputs, guides, settings,
               keepTaps,    onGrid, extent, graph->history(name, {formatOf(settings.storage), accumulated}),
               std::nullopt};
-  if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent, leastAntilag);
+  if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent, steering);
   return stage;
 }
 
@@ -84,7 +84,8 @@ TapTests tapTests(const TemporalAccumulationSettings& settings) {
 }
 
 TemporalAccumulationConstants constantsOf(const TemporalAccumulationSettings& settings) {
-  return {settings.maxHistory, settings.thresholds.planeTolerance, settings.thresholds.normalThreshold};
+  const float atRest = std::min(settings.restFactor * settings.maxHistory, kMostAccumulatedSamples);
+  return {settings.maxHistory, atRest, settings.thresholds.planeTolerance, settings.thresholds.normalThreshold};
 }
 
 /// Extent of all groups of sparse light, which may end after the image.
@@ -205,9 +206,9 @@ std::span<const ViewInfo> accumulationViews(bool withAntilag) {
 }
 
 AccumulatedLight addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
-                                         const TemporalAccumulationSettings& settings, fg::Texture leastAntilag) {
+                                         const TemporalAccumulationSettings& settings, fg::Texture steering) {
   const Stage stage =
-      stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, false, leastAntilag);
+      stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, false, steering);
   offerViews(stage);
   fg::PassBuilder pass = declarePass(stage, "temporal accumulation", Role::Mean);
   return storeMean(stage, pass);
@@ -215,9 +216,9 @@ AccumulatedLight addTemporalAccumulation(StageGraph graph, const DenoiserInputs&
 
 AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const DenoiserInputs& inputs,
                                                      const Guides& guides, const TemporalAccumulationSettings& settings,
-                                                     LightStorage antialiasing, fg::Texture leastAntilag,
+                                                     LightStorage antialiasing, fg::Texture steering,
                                                      fg::Texture givenTaps) {
-  Stage stage = stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, true, leastAntilag);
+  Stage stage = stageOf(graph, graph->textureDesc(guides.depth).extent, inputs, guides, settings, true, steering);
   stage.givenTaps = givenTaps;
   if (!givenTaps.valid() && graph.shared() != nullptr) stage.givenTaps = graph.shared()->tapsFor(tapTests(settings));
   offerViews(stage);
@@ -233,7 +234,7 @@ bool canJoinGuides(const TemporalAccumulationSettings& settings) {
 GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,
                                                const PrepareGuidesSettings& guideSettings, const GuideNeeds& needs,
                                                const TemporalAccumulationSettings& settings, LightStorage antialiasing,
-                                               fg::Texture leastAntilag) {
+                                               fg::Texture steering) {
   if (!canJoinGuides(settings) || !needs.geometricNormal || !needs.history || !needs.occlusion) {
     throw std::invalid_argument(
         "guides and accumulation share a pass only with antilag, packed storage, history taps "
@@ -243,7 +244,7 @@ GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserI
   const fg::Extent extent = graph->textureDesc(inputs.depth).extent;
   const bool onGrid = inputs.conventions.light.grid();
   const Role role = onGrid ? Role::GuidesMeanAndTapsOnGrid : Role::GuidesMeanAndTaps;
-  Stage stage = stageOf(graph, extent, inputs, {}, settings, true, leastAntilag, onGrid);
+  Stage stage = stageOf(graph, extent, inputs, {}, settings, true, steering, onGrid);
   fg::PassBuilder pass = newPass(stage, "guides and accumulation", role);
   readGBuffer(pass, inputs, guideSettings);
   pass.constants(

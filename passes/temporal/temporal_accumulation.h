@@ -21,6 +21,9 @@ enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 /// Settings of the preprocessing accumulation (Meunier & Harada 2022, 4.2).
 struct TemporalAccumulationSettings {
   float maxHistory = 16.0F;
+  /// With a history that is steered (`Antilag::steering`): at rest it is at most so many times as long. Not a setting of
+  /// every method.
+  float restFactor = 1.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
   HistoryThresholds thresholds = {};
   HistoryFilter historyFilter = HistoryFilter::Bilinear;
@@ -69,13 +72,12 @@ struct AccumulatedLight {
   /// In the storage `TemporalAccumulationSettings::storage`: mean radiance; alpha: history length, 0 where there is
   /// nothing to denoise.
   fg::Texture mean;
-  fg::Texture antilag = {};  ///< `Antilag::factor` of this frame, which `mean` does not follow yet; or invalid.
+  AntilagResult antilag = {};  ///< Of this frame, which `mean` does not follow yet; or invalid.
 };
 
 /// Average the noisy lighting over time along its motion.
 AccumulatedLight addTemporalAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
-                                         const TemporalAccumulationSettings& settings = {},
-                                         fg::Texture leastAntilag = {});
+                                         const TemporalAccumulationSettings& settings = {}, fg::Texture steering = {});
 
 /// Accumulated light, and the kept history taps with which later stages read their own histories along the same motion.
 struct AccumulationWithTaps {
@@ -96,7 +98,7 @@ AccumulationWithTaps addTemporalAccumulationWithTaps(StageGraph graph, const Den
                                                      const Guides& guides,
                                                      const TemporalAccumulationSettings& settings = {},
                                                      LightStorage antialiasing = LightStorage::Half,
-                                                     fg::Texture leastAntilag = {}, fg::Texture givenTaps = {});
+                                                     fg::Texture steering = {}, fg::Texture givenTaps = {});
 
 /// The light grid: if sparse light has one sample in each group of a grid (`LightPattern::grid`), accumulated light may
 /// have a texel for each group. It is the mean for the pixel that has this frame's sample, from the means of the pixels
@@ -126,7 +128,7 @@ bool canJoinGuides(const TemporalAccumulationSettings& settings);
 GuidesAndAccumulation addGuidesAndAccumulation(StageGraph graph, const DenoiserInputs& inputs,
                                                const PrepareGuidesSettings& guideSettings, const GuideNeeds& needs,
                                                const TemporalAccumulationSettings& settings, LightStorage antialiasing,
-                                               fg::Texture leastAntilag = {});
+                                               fg::Texture steering = {});
 
 /// Specular light accumulated along its own motion, with what later stages read of its surfaces.
 struct ReflectionsAndAccumulation {

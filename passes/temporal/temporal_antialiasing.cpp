@@ -68,11 +68,11 @@ fg::Texture addStage(StageGraph graph, bool kept, const ReadHistory& read, fg::T
     pass.sample("filtered", filtered)
         .sample("previousResolved", resolved.previous)
         .specialize("kClipRadius", settings.clipRadius)
-        .constants(TemporalAntialiasingConstants{settings.maxHistory, settings.clipGamma, settings.edgeClipGamma,
-                                                 settings.filterRadius, settings.historySharpness,
-                                                 thresholds.planeTolerance, thresholds.normalThreshold})
+        .constants(TemporalAntialiasingConstants{
+            settings.maxHistory, settings.restFactor, settings.clipGamma, settings.edgeClipGamma, settings.filterRadius,
+            settings.historySharpness, thresholds.planeTolerance, thresholds.normalThreshold})
         .dispatch(extent);
-    if (packed) pass.specialize("kBeyondLevels", settings.maxHistory > kHighestLevel);
+    if (packed) pass.specialize("kBeyondLevels", settings.restFactor * settings.maxHistory > kHighestLevel);
     return pass;
   };
   graph.offer(antialiasingViews(), extent, [&](const std::string& name) { return declare(name, true); });

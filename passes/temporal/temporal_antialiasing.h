@@ -28,6 +28,7 @@ struct TemporalAntialiasingSettings {
   float filterRadius = 0.75F;
   float historySharpness = 0.75F;
   LightStorage storage = LightStorage::Half;
+  float restFactor = 1.0F;  ///< With `shortening`, history at rest is at most so many times as long. Not a setting.
   /// Whether this is the method's only accumulation of light. Its history length is then that of the method, the host's
   /// confidence limits it, and it is never a mean over the pixel's area. Not a setting; needs the storage
   /// `LightStorage::Half`.
@@ -83,7 +84,7 @@ struct TemporalAntialiasingSettings {
 /// Remove the flicker and aliasing that the spatial filter leaves: bicubic history, variance clipping, moving average.
 /// @param filtered the current frame in the storage `settings.storage`; RGBA16F: alpha below 0 where there is no sample
 /// @param output   RGBA16F texture to write the result to
-/// @param shortening `SteeredHistory::shortening` of the previous frame, or invalid
+/// @param shortening `AntilagResult::shortening`, or invalid
 /// @returns the output's new version
 fg::Texture addTemporalAntialiasing(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
                                     fg::Texture filtered, fg::Texture output,

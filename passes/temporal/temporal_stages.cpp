@@ -68,10 +68,10 @@ Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, cons
                             const TemporalPlan& plan) {
   if (!plan.accumulates) return {.lighting = inputs.lighting};
   if (!plan.keepsTaps) {
-    return accumulatedLight(addTemporalAccumulation(graph, inputs, guides, plan.accumulation, plan.leastAntilag));
+    return accumulatedLight(addTemporalAccumulation(graph, inputs, guides, plan.accumulation, plan.steering));
   }
   return withTaps(
-      addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, tapsReader(plan), plan.leastAntilag));
+      addTemporalAccumulationWithTaps(graph, inputs, guides, plan.accumulation, tapsReader(plan), plan.steering));
 }
 
 Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, const Guides& guides,
@@ -79,7 +79,7 @@ Accumulated addAccumulation(StageGraph graph, const DenoiserInputs& inputs, cons
   DenoiserInputs followed = inputs;
   followed.confidence = motion.confidence;
   return withTaps(addTemporalAccumulationWithTaps(graph, followed, guides, plan.accumulation, tapsReader(plan),
-                                                  plan.leastAntilag, motion.taps));
+                                                  plan.steering, motion.taps));
 }
 
 GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& inputs,
@@ -88,8 +88,8 @@ GuidedInput addGuidesWithAccumulation(StageGraph graph, const DenoiserInputs& in
   const bool allGuides = needs.geometricNormal && needs.history && needs.occlusion.has_value();
   const bool haveGuides = graph.shared() != nullptr && graph.shared()->prepared();
   if (!haveGuides && plan.accumulates && plan.keepsTaps && allGuides && canJoinGuides(plan.accumulation)) {
-    const auto [guides, withGuides, lightGrid] = addGuidesAndAccumulation(
-        graph, inputs, settings, needs, plan.accumulation, tapsReader(plan), plan.leastAntilag);
+    const auto [guides, withGuides, lightGrid] =
+        addGuidesAndAccumulation(graph, inputs, settings, needs, plan.accumulation, tapsReader(plan), plan.steering);
     Accumulated accumulated = withTaps(withGuides);
     accumulated.lightGrid = lightGrid;
     return {guides, accumulated};
@@ -122,11 +122,12 @@ fg::Texture addAntialiasing(StageGraph graph, const DenoiserInputs& inputs, cons
     return filtered.resource == output.resource ? filtered : addPassThrough(graph, filtered, output);
   }
   if (!plan.sharesTaps) {
-    return addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing, plan.shortening);
+    return addTemporalAntialiasing(graph, inputs, guides, filtered, output, plan.antialiasing,
+                                   accumulated.antilag.shortening);
   }
   const fg::Texture depth = coversPixelArea(plan.antialiasing, inputs.scene) ? guides.depth : fg::Texture{};
   return addTemporalAntialiasingWithTaps(graph, inputs.frame, accumulated.taps, depth, filtered, output,
-                                         plan.antialiasing, plan.shortening);
+                                         plan.antialiasing, accumulated.antilag.shortening);
 }
 
 }  // namespace walr

@@ -35,8 +35,7 @@ struct TemporalPlan {
   bool sharesTaps = false;                     ///< Anti-aliasing reads them instead of reprojecting.
   GuideNeeds guides;                           ///< Guides that these stages read. A filter may need more.
   LightStorage filtered = LightStorage::Half;  ///< Storage of the filter's result.
-  fg::Texture leastAntilag = {};               ///< `Antilag::least`, which the filter measures, or invalid.
-  fg::Texture shortening = {};                 ///< `SteeredHistory::shortening` of the previous frame, or invalid.
+  fg::Texture steering = {};                   ///< `Antilag::steering`, which the filter measures, or invalid.
 };
 
 /// @throws std::invalid_argument saying why light must be accumulated before a frame can be filtered
@@ -53,7 +52,7 @@ struct Accumulated {
   LightingAlpha alpha = LightingAlpha::Unused;
   fg::Texture taps = {};                              ///< `AccumulationWithTaps::taps`, if the plan keeps them.
   std::optional<LightGrid> lightGrid = std::nullopt;  ///< If `lighting` lies on it.
-  fg::Texture antilag = {};                           ///< `AccumulatedLight::antilag`.
+  AntilagResult antilag = {};                         ///< `AccumulatedLight::antilag`.
 };
 
 /// Add temporal accumulation, if the plan has it.

@@ -1,5 +1,6 @@
 // Antilag (passes/WALR.md, 3): how far the light has changed, for each tile of 8 x 8 pixels. The antilag factor is 0
-// where history counts in full and 1 where it does not count.
+// where history counts in full and 1 where it does not count. What is at rest may have a longer one: below 0, the factor
+// says how much longer.
 // score = |sum d| / sqrt(sum d^2) over a window of tiles, where d is the luminance of this frame's sample less that of
 // history. If the light has not changed, the score is normally distributed with standard deviation 1, whatever the
 // noise; a single firefly cannot raise it above 1.
@@ -16,11 +17,15 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform texture2D tiles;  // Sums over a tile. x: of d; y: of d^2; z: of squares of samples; w: number of samples.
-layout(constant_id = 0) const bool kHasLeast = false;
 layout(constant_id = 1) const int kRadius = 3;  // Of the window of tiles.
-uniform texture2D least;  // Least factor of each tile; of the previous frame's size, and not read where that is another.
+#ifdef STEERED
+uniform texture2D steering;  // residual_statistics.comp; of the previous frame's size, and not read where that is another.
+#endif
 uniform texture2D previous;  // Of what this pass writes.
 layout(rg16f) uniform writeonly image2D outFactor;  // y: the brightest sample.
+#ifdef STEERED
+layout(r32ui) uniform writeonly uimage2D outShortening;  // Of the history of anti-aliasing: bits of a float.
+#endif
 layout(push_constant) uniform PushConstants { AntilagConstants constants; };
 
 ivec2 tilesOfImage() { return textureSize(tiles, 0); }
@@ -28,17 +33,32 @@ const int kSharedLeast = 0;
 float windowWeight(int offset) { return 1.0; }  // All tiles of the window count alike.
 #include "common/window_sum.glsl"
 
+#ifdef STEERED
+// The factor where that of a change of light is `ofChange`, and that of the previous frame was `before`. A small change
+// ends the longer history of what is at rest, which then grows by a frame in each frame.
+float withLeast(float ofChange, float least, float before) {
+  if (least >= 0.0) return max(ofChange, least);
+  const float longer = mix(1.0 - least, 1.0, min(4.0 * ofChange, 1.0));
+  return max(1.0 - (1.0 - ofChange) * longer, before - constants.oneFrame);
+}
+#endif
+
 void main() {
   const vec4 sum = windowSum(tiles, ivec2(0));
   const ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   const ivec2 size = tilesOfImage();
   if (any(greaterThanEqual(tile, size))) return;
   const float score = sum.y > 0.0 ? abs(sum.x) * inversesqrt(sum.y) : 0.0;
-  const float factor = clamp((score - constants.scoreLow) / (constants.scoreHigh - constants.scoreLow), 0.0, 1.0);
-  const bool hasLeast = kHasLeast && textureSize(least, 0) == size;
+  const float ofChange = clamp((score - constants.scoreLow) / (constants.scoreHigh - constants.scoreLow), 0.0, 1.0);
+  const vec2 before = textureSize(previous, 0) == size ? texelFetch(previous, tile, 0).xy : vec2(0.0);
+#ifdef STEERED
+  const vec2 steered = textureSize(steering, 0) == size ? texelFetch(steering, tile, 0).xy : vec2(0.0);
+  const float factor = withLeast(ofChange, steered.x, before.x);
+  imageStore(outShortening, tile, uvec4(floatBitsToUint(factor < -1.0 ? factor + 1.0 : steered.y)));
+#else
+  const float factor = ofChange;
+#endif
   const float now = sum.w > 0.0 ? sqrt(constants.mostSquare * sum.z / sum.w) : 0.0;
-  const float before = textureSize(previous, 0) == size ? texelFetch(previous, tile, 0).y : 0.0;
-  const float withLeast = hasLeast ? max(factor, texelFetch(least, tile, 0).x) : factor;
-  const float brightest = max(now, sqrt(now * before));
-  imageStore(outFactor, tile, nearestHalf(vec4(withLeast, brightest, 0.0, 0.0)));
+  const float brightest = max(now, sqrt(now * before.y));
+  imageStore(outFactor, tile, nearestHalf(vec4(factor, brightest, 0.0, 0.0)));
 }

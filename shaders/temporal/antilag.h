@@ -18,11 +18,12 @@ const float kFireflyRoom = 2.0f;
 struct AntilagConstants {
   float scoreLow;    // Score up to which history counts in full, standard errors.
   float scoreHigh;   // Score from which history does not count, standard errors.
+  float oneFrame;    // Over the longest history. Read where history is steered only.
   float mostSquare;  // Square of the brightest sample, in units of the mean square of those around it; 0: no bound.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(AntilagConstants) == 12);
+static_assert(sizeof(AntilagConstants) == 16);
 }  // namespace walr
 #endif
 #endif

@@ -14,7 +14,7 @@ struct GuidesAndAccumulationConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GuidesAndAccumulationConstants) == 92);
+static_assert(sizeof(GuidesAndAccumulationConstants) == 96);
 }  // namespace walr
 #endif
 #endif

@@ -24,10 +24,10 @@ float samplesPerFrame(float history, float count) {
   return hadMore ? history / constants.maxHistory : assumed;
 }
 
-// History length with this frame's samples.
-float lengthWith(float history, float count, float perFrame) {
-  if (!kLightCounted) return min(history + count, constants.maxHistory);
-  return min(history, perFrame * (constants.maxHistory - (count > 0.0 ? 1.0 : 0.0))) + count;
+// History length with this frame's samples. `longest`: of the pixel, frames.
+float lengthWith(float history, float count, float perFrame, float longest) {
+  if (!kLightCounted) return min(history + count, longest);
+  return min(history, perFrame * (longest - (count > 0.0 ? 1.0 : 0.0))) + count;
 }
 
 #endif

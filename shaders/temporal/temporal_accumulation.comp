@@ -135,6 +135,7 @@ float unpackHistoryLength(uint packed) { return unpackHistory(packed).a; }
 #include "common/luminance.glsl"
 #include "temporal/antilag_tiles.glsl"
 #endif
+#include "temporal/at_rest.glsl"
 #include "temporal/confidence.glsl"
 #include "temporal/sample_counts.glsl"
 #define HISTORY previousAccumulated
@@ -151,6 +152,19 @@ struct ReprojectedHistory {
   int rejected;    // Number of history taps that were rejected.
   float perFrame;  // samplesPerFrame, once it is known.
 };
+
+// The longest history of pixel `p`, frames. Only antilag lets it be longer at rest.
+float longestHistoryAt(ivec2 p, ReprojectedHistory found) {
+#if !defined(REFLECTIONS) && (defined(ANTILAG) || defined(VIEW))
+  if (!kLightCounted && isAtRest(found.position - vec2(p))) return constants.maxHistoryAtRest;
+#endif
+  return constants.maxHistory;
+}
+
+// The history length of pixel `p` with this frame's samples; `history`: without them.
+float lengthAt(ivec2 p, ReprojectedHistory found, float history, LightSample noisy) {
+  return lengthWith(history, usableSamples(noisy), found.perFrame, longestHistoryAt(p, found));
+}
 
 ReprojectedHistory historyAt(HistoryTaps taps, vec2 position) {
   const vec4 mean = kBicubicHistory ? bicubicOfTaps(previousAccumulated, taps, kCatmullRom)
@@ -229,7 +243,8 @@ Fireflies firefliesIn(ReprojectedHistory found, LightSample noisy, float share) 
   const float now = brightestChannel(clampedRadiance(noisy.radiance)), before = brightestChannel(found.mean.rgb);
   factors.sampleFactor = heldBack(sqrt(share) * now, brightest);
   factors.square = brightest > 0.0 ? min(now * now, brightest * brightest / max(share, 1e-6)) : now * now;
-  if (before > 2.0 * now) factors.historyFactor = heldBack(found.mean.a / found.perFrame * before, brightest);
+  const float frames = min(found.mean.a / found.perFrame, constants.maxHistory);
+  if (before > 2.0 * now) factors.historyFactor = heldBack(frames * before, brightest);
   return factors;
 }
 
@@ -272,7 +287,7 @@ vec3 viewOf(ivec2 p, float z, LightSample noisy, float share) {
     case 0u: {
       if (!surface) return vec3(0.0);
       const ReprojectedHistory found = historyWithAntilag(p, z, noisy);
-      return vec3(lengthWith(found.mean.a, usableSamples(noisy), found.perFrame), found.rejected, found.mean.a == 0.0);
+      return vec3(lengthAt(p, found, found.mean.a, noisy), found.rejected, found.mean.a == 0.0);
     }
     case 1u:
       return vec3(noisy.exists && !sampleIsUsable,
@@ -356,7 +371,7 @@ PixelSums accumulate(ivec2 p, float z, LightSample noisy, float share) {
   history.rgb *= factors.historyFactor;
   radiance *= factors.sampleFactor;
 #endif
-  const float samples = lengthWith(history.a, usableSamples(noisy), found.perFrame);
+  const float samples = lengthAt(p, found, history.a, noisy);
   const float newest = countedSamples(noisy);
   const vec3 mean = sampleIsUsable ? mix(history.rgb, radiance, newest / max(samples, newest)) : history.rgb;
   storeMean(p, vec4(mean, samples));

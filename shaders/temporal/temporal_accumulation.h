@@ -9,13 +9,14 @@ const float kMostAccumulatedSamples = 480.0;  // The largest history length that
 const float kLengthRounding = 1.125f;  // Packing makes a history length at most this many times as long.
 
 struct TemporalAccumulationConstants {
-  float maxHistory;       // History length, frames, at which the cumulative mean turns exponential.
-  float planeTolerance;   // Largest plane distance of a history tap, in units of its depth.
-  float normalThreshold;  // Smallest cosine between geometric normals.
+  float maxHistory;        // History length, frames, at which the cumulative mean turns exponential.
+  float maxHistoryAtRest;  // The same of pixels at rest.
+  float planeTolerance;    // Largest plane distance of a history tap, in units of its depth.
+  float normalThreshold;   // Smallest cosine between geometric normals.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(TemporalAccumulationConstants) == 12);
+static_assert(sizeof(TemporalAccumulationConstants) == 16);
 }  // namespace walr
 #endif
 #endif

@@ -6,7 +6,8 @@
 // What the frame adds is a mean over the samples in and around the pixel.
 // KEPT_TAPS: reprojection comes from the taps that accumulation kept (history_taps.glsl). Otherwise it is done here, or
 // with kStill, nothing moves and the history of a pixel is the pixel itself.
-// With kShortened, the history of frames without jitter is shorter where the filtered light has little noise.
+// With kShortened, the history of what is at rest is longer, and that of frames without jitter is shorter where the
+// filtered light has little noise.
 // PACKED: the filtered light and the history are packed light (packed_light.glsl); every surface has filtered light,
 // and no other pixel has. The pass-through comes from the kept taps or from the host's lighting. The result is not
 // packed.
@@ -63,7 +64,8 @@ uniform usampler2D previousGeometricNormal;
 uniform utexture2D objects;
 uniform usampler2D previousObjects;
 #endif
-// Of the previous frame, for tiles of antilag: bits of floats, from 0 (not at all) to 1 (to no history).
+// For tiles of antilag: bits of floats, from 0 (not at all) to 1 (to no history); below 0: minus how much longer, over the
+// length, the history of what is at rest is.
 uniform usampler2D shortening;
 layout(push_constant) uniform PushConstants {
   TemporalAntialiasingConstants constants;
@@ -75,7 +77,7 @@ layout(push_constant) uniform PushConstants {
 #ifdef PACKED
 #include "conventions/packed_light.glsl"
 const int kHistoryBits = kResolvedBits;
-PackedLength longestLength() { return PackedLength(constants.maxHistory, kBeyondLevels); }
+PackedLength longestLength() { return PackedLength(constants.maxHistory * constants.restFactor, kBeyondLevels); }
 vec4 unpackHistory(uint packed) { return unpackResolved(packed, longestLength()); }
 float unpackHistoryLength(uint packed) { return unpackLength(packed >> 29, longestLength()); }
 vec4 filteredAt(ivec2 q) { return unpackFiltered(texelFetch(filtered, q, 0).x); }
@@ -101,6 +103,7 @@ vec4 filteredOrPassThroughAt(ivec2 p) { return filteredAt(p); }
 #include "temporal/bicubic.glsl"
 #include "common/half.glsl"
 #include "temporal/antilag.glsl"
+#include "temporal/at_rest.glsl"
 
 #ifdef KEPT_TAPS
 #include "conventions/surface.glsl"
@@ -222,6 +225,7 @@ struct ResolvedHistory {
   vec4 light;    // a: history length, 0 without a history.
   int rejected;  // Number of taps that are not accepted.
   bool mixed;    // With kTightAtEdges: some tap shows another surface.
+  bool atRest;   // The history lies at the pixel itself.
 };
 
 // Accepts all taps inside the image, as frames that cover the pixel's area do.
@@ -257,12 +261,13 @@ HistoryTaps tapsOf(ivec2 p, out bool mixed) {
 #endif
 
 ResolvedHistory historyOf(ivec2 p) {
-  ResolvedHistory history = ResolvedHistory(vec4(0.0), 0, false);
+  ResolvedHistory history = ResolvedHistory(vec4(0.0), 0, false, kStill);
   if (kStill) {
     history.light = historyTexel(previousResolved, p);
   } else {
     const HistoryTaps taps = tapsOf(p, history.mixed);
     history.rejected = tapsRejected(taps);
+    history.atRest = isAtRest(tapPosition(taps) - vec2(p));
     const float sharpness = coversArea() ? constants.historySharpness : kCatmullRom;
     history.light = bicubicOfTaps(previousResolved, taps, sharpness);
   }
@@ -343,11 +348,13 @@ vec3 lightOfFrame(vec3 own) { return coversArea() && constants.filterRadius > 0.
 
 // The longest history of a pixel, with this frame. In jittered frames the mean is over the pixel's area, too, which takes
 // as many samples as it gets.
-float longestHistoryAt(ivec2 p) {
-  const bool jittered = frame.jitterDelta != vec2(0.0), sameSize = frame.previousPixelFromPixel == vec2(1.0);
-  if (!kShortened || jittered || !sameSize) return constants.maxHistory;
+float longestHistoryAt(ivec2 p, bool atRest) {
+  const bool jittered = frame.jitterDelta != vec2(0.0);
+  if (!kShortened || (jittered && !atRest)) return constants.maxHistory;
   const vec2 tile = amongAntilagTiles(vec2(p)), base = floor(tile);
-  return mix(constants.maxHistory, 1.0, gatherBilinear(shortening, base, tile - base));
+  const float shorter = gatherBilinear(shortening, base, tile - base);
+  if (shorter < 0.0) return atRest ? constants.maxHistory * (1.0 - shorter) : constants.maxHistory;
+  return jittered ? constants.maxHistory : mix(constants.maxHistory, 1.0, shorter);
 }
 
 // The new running mean of pixel `p` and its history length.
@@ -357,7 +364,7 @@ vec4 resolve(ivec2 p, vec4 current, ResolvedHistory history) {
   const vec3 light = lightOfFrame(current.rgb);
   if (history.light.a == 0.0) return vec4(light, 1.0);
   const vec3 clipped = clippedHistory(history).colour;
-  const float samples = min(history.light.a + 1.0, longestHistoryAt(p));
+  const float samples = min(history.light.a + 1.0, longestHistoryAt(p, history.atRest));
   return vec4(mix(clipped, light, 1.0 / samples), samples);
 }
 

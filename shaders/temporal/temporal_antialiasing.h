@@ -7,6 +7,7 @@ namespace walr {
 
 struct TemporalAntialiasingConstants {
   float maxHistory;        // History length at which the cumulative mean turns exponential.
+  float restFactor;        // At rest it is at most so many times as long.
   float clipGamma;         // Half size of the clipping box, standard deviations of the neighbourhood.
   float edgeClipGamma;     // The same where history of another surface mixes in. Read with kTightAtEdges only.
   float filterRadius;      // Half width of the tent over the samples of a jittered frame, pixels.
@@ -16,7 +17,7 @@ struct TemporalAntialiasingConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(TemporalAntialiasingConstants) == 28);
+static_assert(sizeof(TemporalAntialiasingConstants) == 32);
 }  // namespace walr
 #endif
 #endif

@@ -102,6 +102,29 @@ TEST_F(History, LengthOfSparseLightIsThatOfThePixelsGroup) {
   }
 }
 
+// Before a still camera, the history of what moves is no longer than before a moving one.
+TEST_F(History, IsLongerAtRest) {
+  constexpr float kLongest = 8.0F;
+  HostedRun run(device(), "walr", kSize, options(VK_FORMAT_UNDEFINED));
+  HostFrame frame;
+  for (std::uint32_t i = 0; i < 24; ++i) {
+    frame = renderFrame(approachingPanel(i, 0.02), cameraOf(i), kSize);
+    run.fill(frame);
+    (void)run.frame(cameraOf(i));
+  }
+  const std::vector<std::uint16_t> lengths = run.historyLength();
+  int moving = 0, longer = 0;
+  forEachPixel(kSize, [&](glm::ivec2 p) {
+    const float length = glm::unpackHalf1x16(lengths[std::size_t(p.y) * kSize.x + p.x]);
+    const bool moves = glm::length(glm::dvec2(frame.motion[p])) > 0.1;  // Pixels.
+    moving += moves ? 1 : 0;
+    longer += length > 2.0F * kLongest ? 1 : 0;
+    EXPECT_LE(length, moves ? kLongest : 6.0F * kLongest) << p.x << ", " << p.y;
+  });
+  EXPECT_GT(moving, 50);
+  EXPECT_GT(longer, 200);
+}
+
 TEST_F(History, ConfidenceScalesTheLongestHistory) {
   for (const char* method : kMethods) {
     SCOPED_TRACE(method);

@@ -166,7 +166,8 @@ TEST_F(ManySamples, HistoryIsLongWhereThereIsOnlyNoise) {
 // ever. What the fits miss stays. The best mixture of both has the error e1 e2 / sqrt(e1^2 + e2^2).
 TEST_F(ManySamples, ErrorsFallForAsLongAsTheCameraStandsStill) {
   const Settings longest{{"accumulation.max-history", "255"}};
-  const Settings blocks = with(with(longest, "antialiasing.enabled", "off"), "accumulation.storage", "half");
+  const Settings noLonger = with(longest, "accumulation.rest-factor", "1");
+  const Settings blocks = with(with(noLonger, "antialiasing.enabled", "off"), "accumulation.storage", "half");
   Method mixture = standard(blocks), mean(device(), "accumulate", "", longest),
          fits = standard(with(blocks, "blocks.residual", "off"));
   for (std::uint32_t i = 0; i < 256; ++i) {
