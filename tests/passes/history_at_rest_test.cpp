@@ -126,22 +126,39 @@ HostFrame stillFrame(const Scene& scene, std::uint32_t i, double light = 1.0, No
   return renderFrame(scene, camera, kSize, scaled, noise);
 }
 
-/// The error of a run in one frame after another.
-double errorOf(DenoiserRun& run, const Scene& scene, std::uint32_t i, double light = 1.0) {
-  return surfaceError(run.frame(stillFrame(scene, i, light)), stillFrame(scene, i, light, Noise::None));
-}
+/// `walr` with a longer history at rest, and without.
+struct Runs {
+  explicit Runs(const fg::test::TestDevice& device)
+      : atRest(device, *longer, kSize), asInMotion(device, *same, kSize) {}
+  /// The errors of both in one frame after another.
+  std::array<double, 2> errors(const Scene& scene, std::uint32_t i, double light = 1.0) {
+    const HostFrame frame = stillFrame(scene, i, light), truth = stillFrame(scene, i, light, Noise::None);
+    return {surfaceError(atRest.frame(frame), truth), surfaceError(asInMotion.frame(frame), truth)};
+  }
+  void skip(const Scene& scene, std::uint32_t frames) {
+    for (std::uint32_t i = 0; i < frames; ++i) {
+      const HostFrame frame = stillFrame(scene, i);
+      static_cast<void>(atRest.frame(frame));
+      static_cast<void>(asInMotion.frame(frame));
+    }
+  }
+  std::unique_ptr<Denoiser> longer = walrAtRest("6"), same = walrAtRest("1");
+  DenoiserRun atRest, asInMotion;
+};
+
+constexpr std::uint32_t kGrown = 56;  ///< Frames after which history has its full length.
 
 // Noise of mean light falls with the root of the history length, at most to the root of 1/6; errors of the fits stay.
 // Measured: .59 and .63.
 TEST_F(HistoryAtRest, TakesNoiseFromAStillPicture) {
   for (const Scene& scene : {flatWall(), thinBars()}) {
-    std::unique_ptr<Denoiser> longer = walrAtRest("6"), same = walrAtRest("1");
-    DenoiserRun atRest(device(), *longer, kSize), asInMotion(device(), *same, kSize);
+    Runs runs(device());
+    runs.skip(scene, kGrown);
     double before = 0.0, after = 0.0;
-    constexpr std::uint32_t kGrown = 64, kFrames = 80;
-    for (std::uint32_t i = 0; i < kFrames; ++i) {
-      const double withRest = errorOf(atRest, scene, i), without = errorOf(asInMotion, scene, i);
-      if (i >= kGrown) before += without, after += withRest;
+    for (std::uint32_t i = kGrown; i < kGrown + 8; ++i) {
+      const auto [withRest, without] = runs.errors(scene, i);
+      before += without;
+      after += withRest;
     }
     EXPECT_LT(after, 0.7 * before);
   }
@@ -149,17 +166,12 @@ TEST_F(HistoryAtRest, TakesNoiseFromAStillPicture) {
 
 // Light that changes at once ends the longer history. Measured: no frame errs by .3 % more.
 TEST_F(HistoryAtRest, FollowsALightThatChanges) {
-  std::unique_ptr<Denoiser> longer = walrAtRest("6"), same = walrAtRest("1");
-  DenoiserRun atRest(device(), *longer, kSize), asInMotion(device(), *same, kSize);
-  constexpr std::uint32_t kChange = 64;
-  for (std::uint32_t i = 0; i < kChange; ++i) {
-    (void)errorOf(atRest, flatWall(), i);
-    (void)errorOf(asInMotion, flatWall(), i);
-  }
-  for (std::uint32_t i = kChange; i < kChange + 8; ++i) {
-    SCOPED_TRACE("frame " + std::to_string(i - kChange) + " after the change");
-    const double a = errorOf(atRest, flatWall(), i, 0.25), b = errorOf(asInMotion, flatWall(), i, 0.25);
-    EXPECT_LT(a, 1.02 * b);
+  Runs runs(device());
+  runs.skip(flatWall(), kGrown);
+  for (std::uint32_t i = kGrown; i < kGrown + 8; ++i) {
+    SCOPED_TRACE("frame " + std::to_string(i - kGrown) + " after the change");
+    const auto [withRest, without] = runs.errors(flatWall(), i, 0.25);
+    EXPECT_LT(withRest, 1.02 * without);
   }
 }
 
