@@ -20,7 +20,7 @@ struct WalrSettings {
                                             .thresholds = kStrictThresholds,
                                             .antilag = {.enabled = true},
                                             .storage = LightStorage::Packed};
-  /// Of both temporal stages. More hardly gains anything: then noise is taken for a change of light too often.
+  /// Of both temporal stages. A larger one hardly gains anything, because noise passes for a change of light before.
   float restFactor = 6.0F;
   /// Wide windows need less history, and a short one blurs less what moves on the surface.
   float maxSpecularHistory = 5.0F;

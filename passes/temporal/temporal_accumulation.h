@@ -21,8 +21,8 @@ enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 /// Settings of the preprocessing accumulation (Meunier & Harada 2022, 4.2).
 struct TemporalAccumulationSettings {
   float maxHistory = 16.0F;
-  /// With a history that is steered (`Antilag::steering`): at rest it is at most so many times as long. Not a setting of
-  /// every method.
+  /// Where history is steered (`Antilag::steering`), it is at rest at most so many times as long. A setting of `walr`
+  /// only.
   float restFactor = 1.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
   HistoryThresholds thresholds = {};

@@ -19,7 +19,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform texture2D tiles;  // Sums over a tile. x: of d; y: of d^2; z: of squares of samples; w: number of samples.
 layout(constant_id = 1) const int kRadius = 3;  // Of the window of tiles.
 #ifdef STEERED
-uniform texture2D steering;  // residual_statistics.comp; of the previous frame's size, and not read where that is another.
+uniform texture2D steering;  // Limits that the previous frame has measured (residual_statistics.comp), of its size.
 #endif
 uniform texture2D previous;  // Of what this pass writes.
 layout(rg16f) uniform writeonly image2D outFactor;  // y: the brightest sample.
@@ -34,8 +34,8 @@ float windowWeight(int offset) { return 1.0; }  // All tiles of the window count
 #include "common/window_sum.glsl"
 
 #ifdef STEERED
-// The factor where that of a change of light is `ofChange`, and that of the previous frame was `before`. A small change
-// ends the longer history of what is at rest, which then grows by a frame in each frame.
+// The antilag factor. `ofChange`: by the change of light alone; `before`: of the previous frame. At rest `least` is below
+// 0. A small change ends the longer history there, which then grows by a frame in each frame.
 float withLeast(float ofChange, float least, float before) {
   if (least >= 0.0) return max(ofChange, least);
   const float longer = mix(1.0 - least, 1.0, min(4.0 * ofChange, 1.0));

@@ -1,4 +1,4 @@
-// What is at rest in the picture: its history is not resampled, so that a longer one blurs nothing (passes/WALR.md, 3).
+// What is at rest in the picture: its history is not resampled, so that a longer one blurs nothing (passes/WALR.md, 2).
 #ifndef WALR_AT_REST_GLSL
 #define WALR_AT_REST_GLSL
 

@@ -243,6 +243,7 @@ Fireflies firefliesIn(ReprojectedHistory found, LightSample noisy, float share) 
   const float now = brightestChannel(clampedRadiance(noisy.radiance)), before = brightestChannel(found.mean.rgb);
   factors.sampleFactor = heldBack(sqrt(share) * now, brightest);
   factors.square = brightest > 0.0 ? min(now * now, brightest * brightest / max(share, 1e-6)) : now * now;
+  // A history that is longer at rest is of samples that have passed, and many frames bear its brightness out.
   const float frames = min(found.mean.a / found.perFrame, constants.maxHistory);
   if (before > 2.0 * now) factors.historyFactor = heldBack(frames * before, brightest);
   return factors;

@@ -64,8 +64,8 @@ uniform usampler2D previousGeometricNormal;
 uniform utexture2D objects;
 uniform usampler2D previousObjects;
 #endif
-// For tiles of antilag: bits of floats, from 0 (not at all) to 1 (to no history); below 0: minus how much longer, over the
-// length, the history of what is at rest is.
+// For tiles of antilag: bits of floats, from 0 (not at all) to 1 (to no history). Below 0 history is longer at rest: at -3
+// four times as long.
 uniform usampler2D shortening;
 layout(push_constant) uniform PushConstants {
   TemporalAntialiasingConstants constants;

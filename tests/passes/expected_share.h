@@ -16,7 +16,6 @@
 #include "tests/passes/reference/octahedral.h"
 #include "tests/passes/reference/storage.h"
 #include "tests/passes/residual_light.h"
-#include "tests/passes/shaders.h"
 #include "tests/passes/synthetic_scene.h"
 
 /// The share of accumulated light in the result in double precision (passes/WALR.md, 9), and the filter that is held to

@@ -1,5 +1,5 @@
-// The longer history of what is at rest (passes/WALR.md, 3): antilag against a calculation in double precision, and
-// what the whole method shows.
+// The longer history of what is at rest (passes/WALR.md, 2 and 9): antilag against a calculation in double precision,
+// and what the whole method shows.
 
 #include <algorithm>
 #include <array>
@@ -66,7 +66,7 @@ class AntilagRun {
   std::unique_ptr<fg::test::GraphRun> run_;
 };
 
-/// The antilag factor of a tile by passes/WALR.md, 3.
+/// The antilag factor of a tile by passes/WALR.md, 9.
 double expectedFactor(double score, double least, double before) {
   const AntilagSettings settings;
   const double ofChange = std::clamp((score - settings.scoreLow) / (settings.scoreHigh - settings.scoreLow), 0.0, 1.0);
