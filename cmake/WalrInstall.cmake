@@ -56,7 +56,7 @@ function(walr_install_guides folder component)
   set(options COMPONENT ${component} ${ARGN})
   install(FILES integration/README.md integration/ADAPTERS.md DESTINATION "${folder}/integration" ${options})
   install(DIRECTORY integration/docs DESTINATION "${folder}/integration" ${options} FILES_MATCHING PATTERN "*.md")
-  install(FILES passes/WALR.md passes/SPECULAR.md passes/EXPECTED_ERROR.md passes/LEARNT.md passes/GLOSSARY.md
+  install(FILES passes/WALR.md passes/SPECULAR.md passes/AT_REST.md passes/EXPECTED_ERROR.md passes/LEARNT.md passes/GLOSSARY.md
     passes/BIBLIOGRAPHY.md DESTINATION "${folder}/passes" ${options})
   install(FILES passes/images/walr.svg DESTINATION "${folder}/passes/images" ${options})
   install(FILES samples/embedding/embedding.c samples/embedding/sequence.cpp DESTINATION "${folder}/samples/embedding" ${options})

@@ -18,7 +18,7 @@ struct Iteration {
 };
 /// With taps 1, 3 and 9 pixels apart, every pixel of the window would count once. Taps 8 apart count few pixels twice,
 /// and an even spacing lets a work group take its taps from quads.
-constexpr std::array kIterations{Iteration{1, 12.0F}, Iteration{3, 6.0F}, Iteration{8, 3.0F}};
+constexpr std::array kIterations{Iteration{1, 15.0F}, Iteration{3, 7.5F}, Iteration{8, 3.75F}};
 
 /// Threads that cover all pixels: work groups of 16 x 16, which are interleaved where the spacing is even
 /// (lobe_filter.comp).

@@ -47,6 +47,14 @@ GuideNeeds needsOf(const WalrSettings& settings, const TemporalPlan& plan) {
   return needs;
 }
 
+/// At rest, both temporal stages may have a longer history where something tells when the light changes.
+void lengthenAtRest(const WalrSettings& settings, TemporalAccumulationSettings& accumulation,
+                    TemporalAntialiasingSettings& antialiasing) {
+  if (!settings.accumulation.antilag.enabled) return;
+  accumulation.restFactor = settings.restFactor;
+  antialiasing.restFactor = settings.restFactor;
+}
+
 /// The method for specular light: means over lobes take the place of fits.
 fg::Texture addSpecularWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture output,
                             const WalrSettings& settings) {
@@ -54,6 +62,7 @@ fg::Texture addSpecularWalr(StageGraph graph, const DenoiserInputs& inputs, fg::
   accumulation.maxHistory = settings.maxSpecularHistory;
   TemporalAntialiasingSettings antialiasing = settings.antialiasing;
   antialiasing.clipGamma = settings.specularClipGamma;
+  lengthenAtRest(settings, accumulation, antialiasing);
   const TemporalPlan plan = planTemporalStages(inputs, {.accumulation = accumulation,
                                                         .antialiasing = antialiasing,
                                                         .spatialOnly = settings.spatialOnly,
@@ -79,16 +88,13 @@ fg::Texture addWalr(StageGraph graph, const DenoiserInputs& inputs, fg::Texture 
                                                   .antialiasing = settings.antialiasing,
                                                   .spatialOnly = settings.spatialOnly});
   BlockRegressionSettings blocks = fittedBlocks(settings, inputs.extent(graph).height, inputs.conventions.light);
-  // Reconstruction with blocks.residual measures where history is too long, or may be longer. In the next frame,
-  // antilag then changes its length, and that of anti-aliasing.
+  // Reconstruction with blocks.residual measures where history is too long. In the next frame, antilag then
+  // shortens it, and that of anti-aliasing.
   std::optional<SteeredHistory> history;
   if (blocks.share.enabled) {
-    history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory, settings.restFactor);
-    if (settings.accumulation.antilag.enabled) {
-      plan.steering = history->limits.previous;
-      plan.accumulation.restFactor = settings.restFactor;
-      plan.antialiasing.restFactor = settings.restFactor;
-    }
+    history = declareSteeredHistory(graph, inputs.extent(graph), settings.accumulation.maxHistory);
+    if (settings.accumulation.antilag.enabled) plan.steering = history->limits.previous;
+    lengthenAtRest(settings, plan.accumulation, plan.antialiasing);
   }
   const auto [guides, accumulated] =
       addGuidesWithAccumulation(graph, inputs, settings.guides, needsOf(settings, plan), plan);

@@ -38,9 +38,9 @@ struct WalrSettings {
     guides.visit(v);
     accumulation.visitAmounts(v, kDiffuseLight);
     v.visit({"accumulation.rest-factor",
-             "With antilag and blocks.residual: where the picture is at rest and the light does not change, both "
-             "temporal stages may have so many times as long a history",
-             "", 1.0, 16.0, "measured", kDiffuseLight},
+             "With antilag, and for diffuse light blocks.residual: where the picture is at rest and the light does not "
+             "change, both temporal stages may have so many times as long a history",
+             "", 1.0, 16.0, "measured"},
             restFactor);
     visitMaxSpecularHistory(v, maxSpecularHistory);
     accumulation.visitStorage(v);

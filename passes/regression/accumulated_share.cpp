@@ -17,8 +17,8 @@ constexpr float kQuietMemory = 2.0F;
 
 }  // namespace
 
-SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory, float restFactor) {
-  return {graph.history("steered history", {VK_FORMAT_R32G32_SFLOAT, antilagTiles(pixels)}), maxHistory, restFactor};
+SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory) {
+  return {graph.history("steered history", {VK_FORMAT_R32G32_SFLOAT, antilagTiles(pixels)}), maxHistory};
 }
 
 void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const AccumulatedShareInputs& inputs,
@@ -35,7 +35,7 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
       graph->history("residual agreement" + ofTiles, {VK_FORMAT_R16G16B16A16_SFLOAT, inputs.tiles});
   // Without a history that somebody steers, history may be as long as packed light can count.
   const SteeredHistory history =
-      inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples, 1.0F);
+      inputs.history ? *inputs.history : declareSteeredHistory(graph, pixels, kMostAccumulatedSamples);
 
   apply.specialize("kPackedMean", packed)
       .sampleIf(packed, "accumulatedPacked", inputs.accumulated, inputs.guides.depth)
@@ -53,6 +53,8 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
   const fg::Texture innovationSums = apply.store(
       "outInnovationSums", graph->texture("innovation sums", {VK_FORMAT_R32G32B32A32_SFLOAT, inputs.tiles}));
 
+  // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
+  const float bias = 0.5F * settings.innovationBias / history.maxHistory;
   fg::PassBuilder pass = graph->compute("residual statistics", shaders::residualStatistics);
   pass.uniform("frameConstants", inputs.frame)
       .sample("fitDepth", inputs.blockDepth)
@@ -68,10 +70,8 @@ void addAccumulatedShare(StageGraph graph, fg::PassBuilder& apply, const Accumul
                                              .kept = 1.0F - 1.0F / settings.frames,
                                              .keptQuiet = 1.0F - 1.0F / (kQuietMemory * settings.frames),
                                              .maxHistory = history.maxHistory,
-                                             .maxHistoryAtRest = history.restFactor * history.maxHistory,
                                              .innovationGain = settings.innovationGain,
-                                             // Noise alone gives the slope -1 / (2 N) (residual_statistics.comp).
-                                             .innovationBias = 0.5F * settings.innovationBias,
+                                             .innovationBias = bias,
                                              .residualGain = settings.gain,
                                              .residualEdgeGain = settings.edgeGain,
                                              .quietShare = kQuietShare * settings.leastShare,

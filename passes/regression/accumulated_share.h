@@ -49,17 +49,15 @@ struct AccumulatedShareSettings {
 
 /// The history lengths that the temporal stages may use. The passes of the share measure them for the next frame.
 struct SteeredHistory {
-  /// R32G32_SFLOAT, a texel for each tile of antilag: the least antilag factor that the measured noise allows, below 0
-  /// where history may be longer at rest; how far anti-aliasing shortens its history, from 0 (not at all) to 1 (to
-  /// none).
+  /// R32G32_SFLOAT, a texel for each tile of antilag: the least antilag factor that the measured noise allows; how far
+  /// anti-aliasing shortens its history, from 0 (not at all) to 1 (to none).
   fg::History limits;
   float maxHistory;  ///< Frames: `TemporalAccumulationSettings::maxHistory`.
-  float restFactor;  ///< At rest, history is at most so many times as long.
 };
 
 /// Declare it before antilag, which reads `limits.previous`.
 /// @param pixels the image's extent
-SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory, float restFactor);
+SteeredHistory declareSteeredHistory(StageGraph graph, fg::Extent pixels, float maxHistory);
 
 /// What the share is measured on.
 struct AccumulatedShareInputs {

@@ -67,9 +67,9 @@ ReprojectionSettings reflectionReprojection(const DenoiserInputs& inputs,
 
 void readReflections(fg::PassBuilder& pass, const ReflectionSearch& search) {
   const HistoryThresholds& thresholds = search.settings.thresholds;
-  const ReflectionMotionConstants constants{thresholds.planeTolerance, thresholds.normalThreshold,
-                                            search.settings.maxHistory, search.reflection.surfaceFrom,
-                                            search.reflection.historyPerLobe};
+  const ReflectionMotionConstants constants{thresholds.planeTolerance,     thresholds.normalThreshold,
+                                            search.settings.maxHistory,    maxHistoryAtRest(search.settings),
+                                            search.reflection.surfaceFrom, search.reflection.historyPerLobe};
   const fg::Texture motion = search.inputs.specularMotion;
   pass.sample("roughness", search.inputs.roughness)
       .sample("previousReflector", search.reflectors.previous)

@@ -71,7 +71,7 @@ Stage stageOf(StageGraph graph, fg::Extent extent, const DenoiserInputs& inputs,
   Stage stage{graph,       inputs, guides, settings,
               keepTaps,    onGrid, extent, graph->history(name, {formatOf(settings.storage), accumulated}),
               std::nullopt};
-  if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent, steering);
+  if (settings.antilag.enabled) stage.antilag = declareAntilag(graph, extent, steering, settings.restFactor > 1.0F);
   return stage;
 }
 
@@ -84,8 +84,8 @@ TapTests tapTests(const TemporalAccumulationSettings& settings) {
 }
 
 TemporalAccumulationConstants constantsOf(const TemporalAccumulationSettings& settings) {
-  const float atRest = std::min(settings.restFactor * settings.maxHistory, kMostAccumulatedSamples);
-  return {settings.maxHistory, atRest, settings.thresholds.planeTolerance, settings.thresholds.normalThreshold};
+  return {settings.maxHistory, maxHistoryAtRest(settings), settings.thresholds.planeTolerance,
+          settings.thresholds.normalThreshold};
 }
 
 /// Extent of all groups of sparse light, which may end after the image.
@@ -156,7 +156,9 @@ AccumulatedLight storeMean(const Stage& stage, fg::PassBuilder& pass) {
   if (!stage.antilag) return {.mean = mean};
   Antilag antilag = *stage.antilag;
   antilag.tiles = pass.store("outTiles", antilag.tiles);
-  return {.mean = mean, .antilag = addAntilag(stage.graph, antilag, stage.settings.antilag, stage.settings.maxHistory)};
+  return {.mean = mean,
+          .antilag = addAntilag(stage.graph, antilag, stage.settings.antilag,
+                                {stage.settings.maxHistory, stage.settings.restFactor}, stage.inputs.frame)};
 }
 
 /// The same for a pass that keeps taps.
@@ -183,6 +185,10 @@ LightGrid storeLightGrid(const Stage& stage, fg::PassBuilder& pass) {
 }
 
 }  // namespace
+
+float maxHistoryAtRest(const TemporalAccumulationSettings& settings) {
+  return std::min(settings.restFactor * settings.maxHistory, kMostAccumulatedSamples);
+}
 
 std::span<const ViewInfo> accumulationViews(bool withAntilag) {
   static const std::vector<ViewInfo> kViews{

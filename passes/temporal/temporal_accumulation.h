@@ -21,8 +21,7 @@ enum class HistoryFilter : std::uint32_t { Bilinear, Bicubic };
 /// Settings of the preprocessing accumulation (Meunier & Harada 2022, 4.2).
 struct TemporalAccumulationSettings {
   float maxHistory = 16.0F;
-  /// Where history is steered (`Antilag::steering`), it is at rest at most so many times as long. A setting of `walr`
-  /// only.
+  /// With antilag, history at rest is at most so many times as long. A setting of `walr` only.
   float restFactor = 1.0F;
   HistoryRejection rejection = HistoryRejection::Plane;
   HistoryThresholds thresholds = {};
@@ -62,6 +61,9 @@ struct TemporalAccumulationSettings {
         kLightStorages, storage);
   }
 };
+
+/// The longest history at rest, frames: no longer than packed light can count.
+float maxHistoryAtRest(const TemporalAccumulationSettings& settings);
 
 /// Views of every stage that accumulates lighting, in the order of `view` of its shader.
 /// @param withAntilag whether the stage has antilag, which has a view of its own

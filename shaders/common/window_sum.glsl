@@ -11,21 +11,24 @@ const int kRows = kSide * kSide;  // Index of the first sum of a row.
 const int kSharedWithRows = kRows + kSide * kGroup;
 shared vec4 sharedTiles[kSharedWithRows > kSharedLeast ? kSharedWithRows : kSharedLeast];
 
+bool isTile(ivec2 tile) { return all(greaterThanEqual(tile, ivec2(0))) && all(lessThan(tile, tilesOfImage())); }
+
 // Shares `side` x `side` tiles of an image from the tile `first` on; 0 outside the image. `origin`: texel of the tile
 // 0. All threads must call it.
 void shareTiles(texture2D image, ivec2 origin, ivec2 first, int side) {
   barrier();  // What was there has been read.
   for (int i = int(gl_LocalInvocationIndex); i < side * side; i += kGroup * kGroup) {
     const ivec2 tile = first + ivec2(i % side, i / side);
-    const bool inside = all(greaterThanEqual(tile, ivec2(0))) && all(lessThan(tile, tilesOfImage()));
-    sharedTiles[i] = inside ? texelFetch(image, origin + tile, 0) : vec4(0.0);
+    sharedTiles[i] = isTile(tile) ? texelFetch(image, origin + tile, 0) : vec4(0.0);
   }
   barrier();
 }
 
-// Sum over the window around this thread's tile, one axis after the other. All threads must call it.
-vec4 windowSum(texture2D image, ivec2 origin) {
-  shareTiles(image, origin, ivec2(gl_WorkGroupID.xy) * kGroup - kRadius, kSide);
+// The first tile that a workgroup needs for its windows.
+ivec2 firstOfWindows() { return ivec2(gl_WorkGroupID.xy) * kGroup - kRadius; }
+
+// Sum over the window around this thread's tile of what is shared, one axis after the other. All threads must call it.
+vec4 sharedWindowSum() {
   for (int i = int(gl_LocalInvocationIndex); i < kSide * kGroup; i += kGroup * kGroup) {
     const int first = i / kGroup * kSide + i % kGroup;
     vec4 row = vec4(0.0);
@@ -38,6 +41,12 @@ vec4 windowSum(texture2D image, ivec2 origin) {
     sum += windowWeight(y - kRadius) * sharedTiles[kRows + kGroup * y + int(gl_LocalInvocationIndex)];
   }
   return sum;
+}
+
+// The same of an image. All threads must call it.
+vec4 windowSum(texture2D image, ivec2 origin) {
+  shareTiles(image, origin, firstOfWindows(), kSide);
+  return sharedWindowSum();
 }
 
 #endif

@@ -17,7 +17,7 @@
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(constant_id = 0) const int kSpacing = 1;  // Pixels between taps.
 // At which difference of luminance the weight falls to 1/e, in standard errors.
-layout(constant_id = 4) const float kLuminanceErrors = 12.0;
+layout(constant_id = 4) const float kLuminanceErrors = 15.0;
 
 layout(std140) uniform frameConstants { FrameConstants frame; };
 uniform utexture2D depth;
@@ -53,7 +53,7 @@ layout(r16f) uniform writeonly image2D outStandardError;
 #endif
 
 const float kNoSample = -1.0;
-const float kMirrorErrors = 2.5;  // kLuminanceErrors of mirrors, which show edges that only light tells.
+const float kMirrorErrors = 3.2;  // kLuminanceErrors of mirrors, which show edges that only light tells.
 
 // With an odd spacing, a work group filters 16 x 16 pixels. With an even one, it filters 8 x 8 quads.
 const int kSide = 16;
@@ -68,29 +68,39 @@ ivec2 pixelAt(ivec2 place) {
 
 struct Light {
   vec3 colour;
-  float error;   // Standard error of the luminance; in FIRST not known yet, 0. kNoSample without any light.
-  float samples;
+  float error;     // Standard error of the luminance; in FIRST not known yet, 0. kNoSample without any light.
+  float variance;  // FIRST: of the mean, over that of a sample.
   float square;   // FIRST: of the difference of this frame's sample, as an estimate of the variance, if there is one.
   bool measured;  // There is.
 };
 
 #ifdef FIRST
+// Variance of a mean of n frames, over that of a frame. Once history is as long as it may be, `most` frames, the mean is
+// exponential, and its variance is nearly half of that of frames which count alike. At rest, history grows beyond.
+float varianceOfMean(float n, float most) {
+  const bool exponential = kLengthRounding * n >= most && n <= kLengthRounding * kMaxHistory;
+  return 1.0 / max(exponential ? 2.0 * n - 1.0 : n, 1.0);
+}
+
 Light lightAt(ivec2 q) {
   vec4 mean = kPackedMean ? unpackAccumulated(texelFetch(accumulatedPacked, q, 0).x) : texelFetch(accumulatedHalf, q, 0);
   const vec4 noisy = texelFetch(lighting, q, 0);
   const bool hasSample = noisy.a > 0.0 && isFinite(noisy.rgb);
   vec3 radiance = hasSample ? clampedRadiance(noisy.rgb) : vec3(0.0);
+  float most = kMaxHistory;
   if (kAntilag) {
     const TileLimits limits = tileLimitsAt(antilag, vec2(q));
     radiance = withoutFirefly(radiance, limits.brightest);
     const float longest = longestHistoryOf(hasSample, longestHistory(limits.factor, kMaxHistory));
     mean = withLongestHistory(mean, radiance, hasSample ? 1.0 : 0.0, longest);
+    most = min(longest + 1.0, kMaxHistory);
   }
   // The difference y - m of a sample from the mean of N samples, which holds it, has the variance (N - 1) / N of y's.
   const float difference = luminance(radiance - mean.rgb);
   const bool measured = hasSample && mean.a >= 1.5;
   const float square = measured ? difference * difference * mean.a / (mean.a - 1.0) : 0.0;
-  return Light(mean.rgb, mean.a > 0.0 ? 0.0 : kNoSample, mean.a, square, measured);
+  return Light(mean.rgb, mean.a > 0.0 ? 0.0 : kNoSample, varianceOfMean(mean.a, most), square,
+               measured);
 }
 #else
 Light lightAt(ivec2 q) {
@@ -102,7 +112,7 @@ shared vec4 tileLobes[kTilePixels];  // Mirrored direction; depth, 0 where the p
 shared LobeReach tileReaches[kTilePixels];
 shared uvec2 tileLight[kTilePixels];  // Halves: red, luminance, blue, standard error.
 #ifdef FIRST
-shared vec2 tileSamples[kTilePixels];  // Light::square, below 0 unless measured; one over Light::samples.
+shared vec2 tileSamples[kTilePixels];  // Light::square, below 0 unless measured; Light::variance.
 #endif
 
 void fillTile() {
@@ -119,7 +129,7 @@ void fillTile() {
     const vec3 colour = luminanceForGreen(light.colour);
     tileLight[i] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, light.error)));
 #ifdef FIRST
-    tileSamples[i] = vec2(light.measured ? light.square : -1.0, 1.0 / max(light.samples, 1.0));
+    tileSamples[i] = vec2(light.measured ? light.square : -1.0, light.variance);
 #endif
   }
   barrier();
@@ -134,7 +144,7 @@ vec4 tapLight(int index) {
 // Standard deviation of the luminance of one sample over the pixels around that have light: from the differences of
 // this frame's samples, or where hardly any pixel has a history, from those between the pixels.
 float deviationAround(int centre) {
-  float squares = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, inverses = 0.0, weights = 0.0;
+  float squares = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, variances = 0.0, weights = 0.0;
   [[unroll]] for (int i = 0; i < 9; ++i) {
     const int index = centre + (i / 3 - 1) * kTileSide + i % 3 - 1;
     const float weight = tileLobes[index].w > 0.0 ? 1.0 : 0.0;
@@ -144,12 +154,12 @@ float deviationAround(int centre) {
     measured += sampled.x >= 0.0 ? weight : 0.0;
     sum += weight * l;
     sumOfSquares += weight * l * l;
-    inverses += weight * sampled.y;
+    variances += weight * sampled.y;
     weights += weight;
   }
   if (weights == 0.0) return kNoSample;
   const float mean = sum / weights;
-  const float spread = max(sumOfSquares / weights - mean * mean, 0.0) * weights / inverses;
+  const float spread = max(sumOfSquares / weights - mean * mean, 0.0) * weights / variances;
   const float known = min(4.0 * measured / weights, 1.0);
   return min(sqrt(mix(4.0 * spread, squares / max(measured, 1e-6), known)), kLargestHalf);
 }

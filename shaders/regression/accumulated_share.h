@@ -13,10 +13,8 @@ struct ResidualStatisticsConstants {
   float kept;              // Share of the sums that is left after a frame.
   float keptQuiet;         // The same where tiles are quiet.
   float maxHistory;        // Frames: the longest history of accumulation.
-  float maxHistoryAtRest;  // The same of what is at rest.
-  // History shrinks by its length x innovationGain x (slope of innovations + innovationBias / longest history).
-  float innovationGain;
-  float innovationBias;
+  float innovationGain;    // History shrinks by its length x this x (slope of innovations + innovationBias).
+  float innovationBias;    // Minus the slope at which history stays as long as it is.
   float residualGain;      // Factor of the square of what the fits miss, for which it is measured too small.
   float residualEdgeGain;  // The same for means over pixels beside an edge.
   float quietShare;        // Share of accumulated light below which a tile is quiet.
@@ -25,7 +23,7 @@ struct ResidualStatisticsConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ResidualStatisticsConstants) == 44);
+static_assert(sizeof(ResidualStatisticsConstants) == 40);
 }  // namespace walr
 #endif
 #endif

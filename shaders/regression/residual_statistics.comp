@@ -35,7 +35,6 @@ float depthAtMiddle(ivec2 p) {
   return unpackDepth(texelFetch(fitDepth, min(p / kBlockSize, textureSize(fitDepth, 0) - 1), 0).x);
 }
 #include "regression/tile_before.glsl"
-#include "temporal/at_rest.glsl"
 
 ivec2 tilesOfImage() { return textureSize(innovationSums, 0); }
 
@@ -112,12 +111,6 @@ ivec2 tileOfSumsAt(ivec2 tile) {
   return min((kAntilagTile * tile + middle) / kTileSize, tilesOfImage() - 1);
 }
 
-// Whether a tile is at rest, if nothing but the camera moves.
-bool isTileAtRest(ivec2 tile) {
-  const vec2 moved = tileBefore(tile, kTileSize, constants.tileOffset) - (vec2(tile) + 0.5);
-  return isAtRest(float(kTileSize) * moved - frame.jitterDelta);
-}
-
 // Sums of innovationTerms in the window around a tile, and the number of tiles that have some. All threads must call it.
 vec3 innovationsAround(ivec2 tileOfSums) {
   const ivec2 first = tileOfSumsAt(ivec2(gl_WorkGroupID.xy) * kGroup);
@@ -155,19 +148,16 @@ void storeHistoryLengths(ivec2 tile) {
   const ivec2 tileOfSums = tileOfSumsAt(tile);
   const vec3 sums = innovationsAround(tileOfSums);
   if (any(greaterThanEqual(tile, imageSize(outSteering)))) return;
-  const bool atRest = constants.maxHistoryAtRest > constants.maxHistory && isTileAtRest(tileOfSums);
-  const float shortest = 2.0;  // Innovations need a history.
-  const float longest = max(atRest ? constants.maxHistoryAtRest : constants.maxHistory, shortest);
+  const float longest = constants.maxHistory, shortest = 2.0;  // Innovations need a history.
   const float previous = hasPrevious() ? texelFetch(previousSteering, tile, 0).x : 0.0;
-  const float before = min(constants.maxHistory * (1.0 - previous), longest) + 1.0;
+  const float before = longest * (1.0 - previous) + 1.0;
   // The slope of the regression of innovations on those of the frame before is, without noise, how much more the last frame
   // should have counted. If only noise parts light and history, it is minus half of the share with which it counted. Means
   // over four pixels have a quarter of this while the camera stands still, and a ninth where quads of both frames overlap
   // by chance. What is missing is added.
   // Quiet tiles have innovations in every second frame. The slope of few tiles is noise.
   const float enough = 16.0, ofPixels = 0.82 * 0.5 / before;
-  const float bias = constants.innovationBias / longest;
-  const float excess = sums.y > 0.0 ? sums.x / sums.y - ofPixels + bias : 0.0;
+  const float excess = sums.y > 0.0 ? sums.x / sums.y - ofPixels + constants.innovationBias : 0.0;
   // Noise that successive frames share lets innovations agree, too: history is shortened as far as there is trust.
   const float trust = hasPrevious() ? texelFetch(previousAgreement, tileOfSums, 0).z : 0.0;
   // Where accumulated light has a share, there is little noise. What quads show of its detail is less than pixels would.
@@ -175,12 +165,8 @@ void storeHistoryLengths(ivec2 tile) {
   const float share = shareOf(tileOfSums, trust), fullGain = 8.0;  // Up to so many frames.
   const float gain = constants.innovationGain * (1.0 + 8.0 * share) * min(fullGain / before, 1.0);
   const float change = min(sums.z / enough, 1.0) * gain * (excess > 0.0 ? trust * excess : excess);
-  const float steered = before * (1.0 - change);
-  // At rest, history grows with every frame as long as innovations do not agree.
-  const float grown = atRest && excess <= 0.0 ? max(steered, before + 1.0) : steered;
-  const float frames = clamp(grown, shortest, longest);
-  const float factor = 1.0 - (frames - 1.0) / constants.maxHistory;
-  const float least = atRest ? factor : clamp(factor, 0.0, 1.0);
+  const float frames = clamp(before * (1.0 - change), shortest, max(longest, shortest));
+  const float least = clamp(1.0 - (frames - 1.0) / longest, 0.0, 1.0);
   imageStore(outSteering, tile, vec4(least, shorteningAt(share), 0.0, 0.0));
 }
 

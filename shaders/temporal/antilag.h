@@ -18,12 +18,13 @@ const float kFireflyRoom = 2.0f;
 struct AntilagConstants {
   float scoreLow;    // Score up to which history counts in full, standard errors.
   float scoreHigh;   // Score from which history does not count, standard errors.
-  float oneFrame;    // Over the longest history. Read where history is steered only.
+  float oneFrame;    // Over the longest history. Read where history may be longer at rest only.
+  float restFactor;  // At rest, history is at most so many times as long. Read where innovations of tiles tell it only.
   float mostSquare;  // Square of the brightest sample, in units of the mean square of those around it; 0: no bound.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(AntilagConstants) == 16);
+static_assert(sizeof(AntilagConstants) == 20);
 }  // namespace walr
 #endif
 #endif

@@ -10,6 +10,7 @@ struct ReflectionMotionConstants {
   float planeTolerance;   // Largest distance between two pixels of one surface from each other's plane, over depth.
   float normalThreshold;  // Smallest cosine between their shading normals.
   float maxHistory;       // Longest history, frames.
+  float maxHistoryAtRest;  // The same where the picture is at rest.
   float surfaceFrom;      // Linear roughness from which the light follows the surface alone.
   float historyPerLobe;   // Frames that remain where the reflected ray misses by the half angle of the lobe.
 };
@@ -21,8 +22,8 @@ struct HostReflectionConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ReflectionMotionConstants) == 20);
-static_assert(sizeof(HostReflectionConstants) == 100);
+static_assert(sizeof(ReflectionMotionConstants) == 24);
+static_assert(sizeof(HostReflectionConstants) == 104);
 }  // namespace walr
 #endif
 #endif

@@ -155,7 +155,7 @@ struct ReprojectedHistory {
 
 // The longest history of pixel `p`, frames. Only antilag lets it be longer at rest.
 float longestHistoryAt(ivec2 p, ReprojectedHistory found) {
-#if !defined(REFLECTIONS) && (defined(ANTILAG) || defined(VIEW))
+#if defined(ANTILAG) || defined(VIEW)
   if (!kLightCounted && isAtRest(found.position - vec2(p))) return constants.maxHistoryAtRest;
 #endif
   return constants.maxHistory;
@@ -184,7 +184,8 @@ HistoryTaps takeGivenTaps(ivec2 p) {
 #endif
 
 #ifdef REFLECTIONS
-// The history of reflected light. Its longest length is rounded to eight bits, as the separate pass stores it.
+// The history of reflected light. Its longest length is rounded to eight bits, as the separate pass stores it, and as
+// there (confidence.glsl), history may be longer at rest where all of it counts.
 ReprojectedHistory historyOfReflection(ivec2 p) {
   const Reflector own = reflectorAt(p);
   const ReflectionMotion m = reflectionMotionAt(p, own);
@@ -195,7 +196,7 @@ ReprojectedHistory historyOfReflection(ivec2 p) {
   const HistoryTaps taps = tapsOf(p, m);
   ReprojectedHistory found = historyAt(taps, tapPosition(taps));
   const float confidence = round(255.0 * m.history / constants.maxHistory) * (1.0 / 255.0);
-  found.mean.a = min(found.mean.a, constants.maxHistory * confidence);
+  if (confidence < 1.0) found.mean.a = min(found.mean.a, constants.maxHistory * confidence);
   return found;
 }
 #endif

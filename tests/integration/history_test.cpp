@@ -105,17 +105,20 @@ TEST_F(History, LengthOfSparseLightIsThatOfThePixelsGroup) {
 // Before a still camera, the history of what moves is no longer than before a moving one.
 TEST_F(History, IsLongerAtRest) {
   constexpr float kLongest = 8.0F;
-  HostedRun run(device(), "walr", kSize, options(VK_FORMAT_UNDEFINED));
+  // Innovations are judged over 7 x 7 tiles of 8 x 8 pixels: some of these must not see what moves.
+  constexpr glm::ivec2 kWide(144, 48);
+  HostedRun run(device(), "walr", kWide, options(VK_FORMAT_UNDEFINED));
   HostFrame frame;
   for (std::uint32_t i = 0; i < 24; ++i) {
-    frame = renderFrame(approachingPanel(i, 0.02), cameraOf(i), kSize);
+    const FrameDescription camera = cameraAt({}, {}, kWide, i);
+    frame = renderFrame(approachingPanel(i, 0.02), camera, kWide);
     run.fill(frame);
-    (void)run.frame(cameraOf(i));
+    (void)run.frame(camera);
   }
   const std::vector<std::uint16_t> lengths = run.historyLength();
   int moving = 0, longer = 0;
-  forEachPixel(kSize, [&](glm::ivec2 p) {
-    const float length = glm::unpackHalf1x16(lengths[std::size_t(p.y) * kSize.x + p.x]);
+  forEachPixel(kWide, [&](glm::ivec2 p) {
+    const float length = glm::unpackHalf1x16(lengths[std::size_t(p.y) * kWide.x + p.x]);
     const bool moves = glm::length(glm::dvec2(frame.motion[p])) > 0.1;  // Pixels.
     moving += moves ? 1 : 0;
     longer += length > 2.0F * kLongest ? 1 : 0;

@@ -87,7 +87,7 @@ TEST_F(AccumulatedShare, QuietTilesTakePartInTurn) {
 TEST_F(AccumulatedShare, ShortensTheHistoryOfAntialiasing) {
   const auto add = [](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
     BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
-    light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(kSamples), 1.0F);
+    light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(kSamples));
     static_cast<void>(
         addBlockFilter(graph, frame, light, guides, {.size = kBlock, .iterations = 2, .coarseSigma = 0.15F}));
     fg::Texture limits = light.history->limits.current;

@@ -34,7 +34,7 @@ class FilterOf {
             [&](fg::Graph& graph, fg::Buffer frame, const Guides& guides, const auto& inputs) {
               BlockLight light{.accumulated = inputs[0], .alpha = LightingAlpha::SampleCount, .lighting = inputs[1]};
               // Tells the share that no history is longer.
-              light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(kSamples), 1.0F);
+              light.history = declareSteeredHistory(graph, graph.textureDesc(inputs[0]).extent, float(kSamples));
               BlockRegressionSettings settings{.size = kBlock, .iterations = 2, .coarseSigma = 0.15F};
               settings.share.enabled = share;
               return addBlockFilter(graph, frame, light, guides, settings);

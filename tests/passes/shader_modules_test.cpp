@@ -16,8 +16,8 @@ namespace {
 // the format of an image, takes a module. Every module costs compile time in every build, bytes in every program that
 // links the library, and an entry in the lists of shaders. Specular light has modules of its own, so that diffuse light
 // does not pay for it.
-constexpr std::size_t kMostModules = 106;
-constexpr std::size_t kMostBytes = 3'525'000;
+constexpr std::size_t kMostModules = 107;
+constexpr std::size_t kMostBytes = 3'545'000;
 
 TEST(ShaderModules, AreFew) {
   EXPECT_LE(std::size(shaders::kAll), kMostModules);

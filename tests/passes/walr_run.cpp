@@ -179,9 +179,10 @@ WalrStages WalrRun::frame(const reference::HostFrame& frame) {
     const std::vector<std::uint16_t> antilag = run_->texels<std::uint16_t>(antilag_);
     stages.antilagTiles = reference::Image<glm::dvec2>(tiles);
     stages.antilag = reference::Image<double>(tiles);
-    for (std::size_t i = 0; i < stages.antilag.pixels().size(); ++i) {
+    const std::size_t count = stages.antilag.pixels().size(), channels = antilag.size() / count;
+    for (std::size_t i = 0; i < count; ++i) {
       stages.antilagTiles.pixels()[i] = {sums[4 * i], sums[4 * i + 1]};
-      stages.antilag.pixels()[i] = double(glm::unpackHalf1x16(antilag[2 * i]));
+      stages.antilag.pixels()[i] = double(glm::unpackHalf1x16(antilag[channels * i]));
     }
   }
   for (const Iteration& iteration : iterations_) {

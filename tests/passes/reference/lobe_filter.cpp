@@ -56,6 +56,13 @@ class Lobes {
   const Image<Reflector>& reflectors_;
 };
 
+/// Variance of a mean of n frames, over that of a frame. That of an exponential mean is 1 / (2 n - 1).
+double varianceOfMean(double n, double maxHistory) {
+  const double rounded = 1.125;  // Packing makes a length so many times as long at most.
+  const bool exponential = rounded * n >= maxHistory && n <= rounded * maxHistory;
+  return 1.0 / std::max(exponential ? 2.0 * n - 1.0 : n, 1.0);
+}
+
 /// Visits the pixels of 3 x 3 taps.
 template <typename Visit>
 void forTaps(glm::ivec2 p, int spacing, const Visit& visit) {
@@ -66,7 +73,8 @@ void forTaps(glm::ivec2 p, int spacing, const Visit& visit) {
 }  // namespace
 
 Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides, const Image<Reflector>& reflectors,
-                             const Image<glm::dvec4>& accumulated, const Image<glm::dvec4>& lighting) {
+                             const Image<glm::dvec4>& accumulated, const Image<glm::dvec4>& lighting,
+                             double maxHistory) {
   const Lobes lobes(frame, guides, reflectors);
   // Variances of a sample's luminance by this frame's sample and the mean that holds it; below 0 without both.
   Image<double> squares(guides.size(), -1.0);
@@ -79,12 +87,12 @@ Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides,
     const double difference = luminance(glm::dvec3(lighting[p]) - glm::dvec3(accumulated[p]));
     squares[p] = difference * difference * samples / (samples - 1.0);
   });
-  double luminanceErrors = 12.0;
+  double luminanceErrors = 15.0;
   for (const int spacing : {1, 3, 8}) {
     Image<Light> filtered(guides.size());
     forEachPixel(guides.size(), [&](glm::ivec2 p) {
       if (!lobes.isSurface(p)) return;
-      double variance = 0.0, weights = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, inverses = 0.0;
+      double variance = 0.0, weights = 0.0, measured = 0.0, sum = 0.0, sumOfSquares = 0.0, variances = 0.0;
       forTaps(p, spacing, [&](glm::ivec2 q, glm::ivec2 tap) {
         if (!hasLight(q)) return;
         if (spacing > 1 && tap.x != 0 && tap.y != 0) return;
@@ -98,28 +106,29 @@ Image<glm::dvec3> lobeFilter(const HostFrame& frame, const Image<Guide>& guides,
         measured += squares[q] >= 0.0 ? 1.0 : 0.0;
         sum += l;
         sumOfSquares += l * l;
-        inverses += 1.0 / std::max(accumulated[q].a, 1.0);
+        variances += varianceOfMean(accumulated[q].a, maxHistory);
       });
       if (weights == 0.0) return;
       double error = std::sqrt(variance / weights), deviation = 0.0;
       if (spacing == 1) {
-        const double spread = std::max(sumOfSquares / weights - std::pow(sum / weights, 2.0), 0.0) * weights / inverses;
+        const double spread =
+            std::max(sumOfSquares / weights - std::pow(sum / weights, 2.0), 0.0) * weights / variances;
         const double known = std::min(4.0 * measured / weights, 1.0);
         deviation = std::sqrt(4.0 * (1.0 - known) * spread + known * variance / std::max(measured, 1e-6));
-        error = deviation / std::sqrt(std::max(accumulated[p].a, 1.0));
+        error = deviation * std::sqrt(varianceOfMean(accumulated[p].a, maxHistory));
       }
       const bool own = hasLight(p);
       const double ownLuminance = luminance(light[p].colour);
-      const double unit = (lobes.isMirror(p) ? 2.5 : luminanceErrors) * error + 1e-3 * ownLuminance + 1e-7;
+      const double unit = (lobes.isMirror(p) ? 3.2 : luminanceErrors) * error + 1e-3 * ownLuminance + 1e-7;
       glm::dvec3 colour(0.0);
       double mixed = 0.0, total = 0.0;
       forTaps(p, spacing, [&](glm::ivec2 q, glm::ivec2 /*tap*/) {
         if (!hasLight(q)) return;
         const double difference = own ? std::abs(luminance(light[q].colour) - ownLuminance) / unit : 0.0;
         const double weight = lobes.weight(p, q, own) * std::exp(-difference);
-        const double tapVariance =
-            spacing > 1 ? std::pow(light[q].error, 2.0)
-                        : (squares[q] >= 0.0 ? squares[q] : deviation * deviation) / std::max(accumulated[q].a, 1.0);
+        const double tapVariance = spacing > 1 ? std::pow(light[q].error, 2.0)
+                                               : (squares[q] >= 0.0 ? squares[q] : deviation * deviation) *
+                                                     varianceOfMean(accumulated[q].a, maxHistory);
         colour += weight * light[q].colour;
         mixed += weight * weight * tapVariance;
         total += weight;
