@@ -25,7 +25,7 @@ namespace {
 
 using MotionDepth = InputConventions::MotionDepth;
 
-constexpr int kFrames = 20;
+constexpr int kFrames = 12;
 constexpr std::size_t kBuiltUp = 4;  // Frames until history has built up.
 
 /// What a source of the change of depth gives, over the frames after the fourth.
