@@ -30,6 +30,8 @@ std::string describe(const ShaderBinding& binding) {
       return "a sampled image";
     case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER:
       return "a uniform block";
+    case VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR:
+      return "an acceleration structure, which only a callback can bind";
     default:
       break;
   }
@@ -56,7 +58,14 @@ class ShaderCheck {
 
   void checkAccess(std::size_t index) {
     const AccessDecl& access = pass_.accesses[index];
-    if (access.binding.empty() || !validHandle(graph_, access)) return;
+    if (!validHandle(graph_, access)) return;
+    if (access.binding.empty()) {
+      if (access.access == Access::IndirectRead) return;
+      findings_.error(code::kBindingNotInShader, pass_, access,
+                      start() + "declares the access " + std::string(accessInfo(access.access).name) +
+                          " without a binding, which only a callback pass can; use sample, load, store or uniform");
+      return;
+    }
     const auto end = pass_.accesses.begin() + static_cast<std::ptrdiff_t>(index);
     if (std::find_if(pass_.accesses.begin(), end,
                      [&](const AccessDecl& other) { return other.binding == access.binding; }) != end) {

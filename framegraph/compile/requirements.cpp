@@ -1,23 +1,33 @@
 #include "framegraph/compile/requirements.h"
 
+#include <variant>
+
 #include "framegraph/declare/access.h"
 
 namespace fg {
 namespace {
 
-void addUses(const PassDecl& pass, std::vector<PlannedResource>& resources) {
+/// Usage flags are those of a texture or of a buffer, as the resource is.
+void addUsage(const ResourceDecl& decl, VkImageUsageFlags image, VkBufferUsageFlags buffer, PlannedResource& resource) {
+  if (std::holds_alternative<TextureDesc>(decl.desc)) {
+    resource.imageUsage |= image;
+  } else {
+    resource.bufferUsage |= buffer;
+  }
+}
+
+void addUses(const GraphDesc& graph, const PassDecl& pass, std::vector<PlannedResource>& resources) {
   for (const AccessDecl& access : pass.accesses) {
     PlannedResource& resource = resources[access.resource];
+    const AccessInfo& info = accessInfo(access.access);
     resource.used = true;
-    resource.imageUsage |= accessInfo(access.access).imageUsage;
-    resource.bufferUsage |= accessInfo(access.access).bufferUsage;
+    addUsage(graph.resources[access.resource], info.imageUsage, info.bufferUsage, resource);
   }
 }
 
 /// Add the usage flags that the host's own use of a resource needs.
-void addExternalUse(const ExternalState& state, PlannedResource& resource) {
-  resource.imageUsage |= imageUsageIn(state);
-  resource.bufferUsage |= bufferUsageIn(state);
+void addExternalUse(const ResourceDecl& decl, const ExternalState& state, PlannedResource& resource) {
+  addUsage(decl, imageUsageIn(state), bufferUsageIn(state), resource);
 }
 
 }  // namespace
@@ -25,14 +35,16 @@ void addExternalUse(const ExternalState& state, PlannedResource& resource) {
 std::vector<PlannedResource> requirements(const GraphDesc& graph, const Culling& culling, const MemoryModel& memory) {
   std::vector<PlannedResource> resources(graph.resources.size());
   for (std::size_t i = 0; i < graph.passes.size(); ++i) {
-    if (culling.live[i]) addUses(graph.passes[i], resources);
+    if (culling.live[i]) addUses(graph, graph.passes[i], resources);
   }
   for (std::size_t i = 0; i < resources.size(); ++i) {
-    if (graph.resources[i].acquire) addExternalUse(*graph.resources[i].acquire, resources[i]);
+    const ResourceDecl& decl = graph.resources[i];
+    if (decl.acquire) addExternalUse(decl, *decl.acquire, resources[i]);
   }
   for (const ExportDecl& exported : graph.exports) {
-    resources[exported.resource.resource].used = true;
-    addExternalUse(exported.release, resources[exported.resource.resource]);
+    const std::uint32_t index = exported.resource.resource;
+    resources[index].used = true;
+    addExternalUse(graph.resources[index], exported.release, resources[index]);
   }
   for (const HistoryDecl& history : graph.histories) {
     PlannedResource& previous = resources[history.previous];

@@ -48,11 +48,10 @@ constexpr std::array<AccessInfo, 16> kAccesses{{
      VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
 }};
 
-/// The access flags of a state, where those that stand for several in shaders are replaced by these. Images are loaded
-/// and stored in the layout GENERAL only.
-VkAccessFlags2 accessesIn(const ExternalState& state) {
+/// The access flags of a state of a texture or buffer, where those that stand for several in shaders are replaced by
+/// these. Images are loaded and stored in the layout GENERAL only.
+VkAccessFlags2 accessesIn(const ExternalState& state, bool texture) {
   VkAccessFlags2 accesses = state.access;
-  const bool texture = state.layout != VK_IMAGE_LAYOUT_UNDEFINED;
   const bool storage = !texture || state.layout == VK_IMAGE_LAYOUT_GENERAL;
   if ((state.access & VK_ACCESS_2_SHADER_READ_BIT) != 0) {
     accesses |= texture ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : VK_ACCESS_2_UNIFORM_READ_BIT;
@@ -62,10 +61,10 @@ VkAccessFlags2 accessesIn(const ExternalState& state) {
   return accesses;
 }
 
-/// True if a state has some access flag of an access, or the layout that only this kind of access uses.
+/// True if a state of a texture has some access flag of an access, or the layout that only this kind of access uses.
 bool servesState(const AccessInfo& info, const ExternalState& state) {
   const bool ownLayout = info.layout != VK_IMAGE_LAYOUT_UNDEFINED && info.layout != VK_IMAGE_LAYOUT_GENERAL;
-  return (info.mask() & accessesIn(state)) != VK_ACCESS_2_NONE || (ownLayout && info.layout == state.layout);
+  return (info.mask() & accessesIn(state, true)) != VK_ACCESS_2_NONE || (ownLayout && info.layout == state.layout);
 }
 
 }  // namespace
@@ -81,7 +80,7 @@ VkImageUsageFlags imageUsageIn(const ExternalState& state) {
 VkBufferUsageFlags bufferUsageIn(const ExternalState& state) {
   VkBufferUsageFlags usage = 0;
   for (const AccessInfo& info : kAccesses) {
-    if ((info.mask() & accessesIn(state)) != VK_ACCESS_2_NONE) usage |= info.bufferUsage;
+    if ((info.mask() & accessesIn(state, false)) != VK_ACCESS_2_NONE) usage |= info.bufferUsage;
   }
   return usage;
 }

@@ -129,14 +129,12 @@ struct Executor::State {
     throw std::invalid_argument("bind: the resource was not declared with Graph::import");
   }
 
-  /// Whether something else than `now` is bound.
   /// @throws std::invalid_argument if nothing or this cannot be bound
-  [[nodiscard]] bool differs(ResourceVersion handle, const Bound& now) const {
+  void requireBindable(ResourceVersion handle, const Bound& now) const {
     requireImport(handle);
     if (now.handle == 0) {
       throw std::invalid_argument("bind: a null handle for '" + graph.resources[handle.resource].name + "'");
     }
-    return bound[handle.resource] != now;
   }
 
   void noteBound(ResourceVersion handle, const Bound& now) {
@@ -191,7 +189,8 @@ void Executor::upload(Buffer buffer, std::span<const std::byte> bytes) {
 
 void Executor::bind(Texture texture, const ExternalImage& image) {
   const Bound now = boundImage(image);
-  if (!state_->differs(texture, now)) return;
+  state_->requireBindable(texture, now);
+  if (state_->bound[texture.resource] == now) return;
   state_->views.import(texture.resource, image.image, now.identity);  // First: nothing has changed if it throws.
   state_->resources.import(texture.resource, image.image);
   state_->noteBound(texture, now);
@@ -199,7 +198,8 @@ void Executor::bind(Texture texture, const ExternalImage& image) {
 
 void Executor::bind(Buffer buffer, VkBuffer handle) {
   const Bound now{reinterpret_cast<std::uint64_t>(handle), 0};
-  if (!state_->differs(buffer, now)) return;
+  // Also if the handle is the same: it may be that of a new buffer in the place of one that was destroyed.
+  state_->requireBindable(buffer, now);
   state_->resources.import(buffer.resource, handle);
   state_->noteBound(buffer, now);
 }

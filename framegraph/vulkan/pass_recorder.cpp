@@ -42,12 +42,21 @@ PassRecorder::PassRecorder(const DeviceContext& device, const GraphDesc& graph, 
   for (const Step& step : steps_) {
     if (std::holds_alternative<HostCallback>(step.pass->work)) requestCallbackViews(*step.pass);
   }
-  context_.image = [this](Texture texture) { return resources_->image(texture.resource, frame_); };
+  const auto requireDeclared = [this](ResourceVersion handle) {
+    static_cast<void>(plan_->resources.at(handle.resource));
+  };
+  context_.image = [this, requireDeclared](Texture texture) {
+    requireDeclared(texture);
+    return resources_->image(texture.resource, frame_);
+  };
   context_.view = [this](Texture texture) {
     const std::uint32_t view = callbackViews_.at(texture.resource);
     return view == kNone ? VK_NULL_HANDLE : views_->get(view, frame_);
   };
-  context_.buffer = [this](Buffer buffer) { return resources_->buffer(buffer.resource, frame_); };
+  context_.buffer = [this, requireDeclared](Buffer buffer) {
+    requireDeclared(buffer);
+    return resources_->buffer(buffer.resource, frame_);
+  };
 }
 
 std::vector<PassRecorder::Step> PassRecorder::makeSteps(const DeviceContext& device, const GraphDesc& graph,

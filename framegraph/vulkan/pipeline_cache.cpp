@@ -1,20 +1,25 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <span>
+#include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "framegraph/vulkan/pipelines.h"
 
 namespace fg::vk {
 namespace {
 
+/// The bytes of a file; none if it cannot be read.
 std::vector<char> readFile(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::ostringstream bytes;  // Reading by iterators would throw where the file is a folder.
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  const std::string text = std::move(bytes).str();
+  return {text.begin(), text.end()};
 }
 
 /// FNV-1a. A file ends with that of the driver's bytes: drivers need not notice damage, and must not be given any
@@ -43,11 +48,6 @@ bool belongsTo(const DeviceContext& device, const std::vector<char>& bytes) {
   return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.headerSize >= sizeof(header) &&
          header.vendorID == device.properties.vendorID && header.deviceID == device.properties.deviceID &&
          std::ranges::equal(header.pipelineCacheUUID, device.properties.pipelineCacheUUID);
-}
-
-[[noreturn]] void cannotWrite(const std::filesystem::path& file) {
-  throw std::filesystem::filesystem_error("cannot write the pipeline cache", file,
-                                          std::make_error_code(std::errc::io_error));
 }
 
 }  // namespace
@@ -85,12 +85,13 @@ void PipelineCache::save() {
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.write(reinterpret_cast<const char*>(&hash), sizeof(hash));
   out.close();
-  if (!out) {
+  std::error_code failed = out ? std::error_code() : std::make_error_code(std::errc::io_error);
+  if (!failed) std::filesystem::rename(temporary, file_, failed);
+  if (failed) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    cannotWrite(temporary);
+    throw std::filesystem::filesystem_error("cannot write the pipeline cache", file_, failed);
   }
-  std::filesystem::rename(temporary, file_);
   loaded_ = std::move(bytes);
 }
 

@@ -18,7 +18,9 @@ std::shared_ptr<DeviceMemory> SharedObjects::transientMemory(const MemoryRequire
   const auto usable = [&](const Block& block) {
     return block.member != member && fits(requirements, block.requirements);
   };
-  if (const auto found = std::ranges::find_if(blocks_, usable); found != blocks_.end()) return found->memory.lock();
+  // The newest: where executors of all members are replaced, older blocks are freed with those that go.
+  const auto found = std::find_if(blocks_.rbegin(), blocks_.rend(), usable);
+  if (found != blocks_.rend()) return found->memory.lock();
   auto memory = std::make_shared<DeviceMemory>(*device_, requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
                                                "transient resources");
   blocks_.push_back({memory, requirements, member});

@@ -27,10 +27,11 @@ class SharedObjects {
   SharedObjects& operator=(const SharedObjects&) = delete;
 
   [[nodiscard]] Pipelines& pipelines() { return *pipelines_; }
-  /// Number of a further member. Executors of one member replace one another and never share memory, so that an
-  /// allocation of the member's last executor can be freed.
+  /// Number of a further member. Executors of one member replace one another, and none takes memory that another one
+  /// allocated, so that this can be freed.
   std::uint32_t addMember() { return members_++; }
-  /// Memory for transients: a block of another member that is large enough, or else a new one.
+  /// Memory for transients: the newest block that another member allocated and that is large enough, or
+  /// else a new one.
   /// @throws as DeviceMemory does
   std::shared_ptr<DeviceMemory> transientMemory(const MemoryRequirements& requirements, std::uint32_t member);
 

@@ -24,6 +24,27 @@ TEST(HostStates, ShaderReadStandsForAllThatShadersRead) {
   EXPECT_EQ(imageUsageIn({kStage, VK_ACCESS_2_SHADER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL}), VK_IMAGE_USAGE_STORAGE_BIT);
   EXPECT_EQ(bufferUsageIn({kStage, VK_ACCESS_2_SHADER_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED}),
             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  // Contents that the host gives up were sampled before; the layout of a buffer says nothing.
+  EXPECT_EQ(imageUsageIn({kStage, VK_ACCESS_2_SHADER_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED}), VK_IMAGE_USAGE_SAMPLED_BIT);
+  EXPECT_EQ(bufferUsageIn({kStage, VK_ACCESS_2_SHADER_READ_BIT, VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL}),
+            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+TEST(Requirements, UsageIsThatOfATextureOrOfABuffer) {
+  Graph graph;
+  const Texture texture = graph.texture("texture", kColor);
+  const Buffer buffer = graph.buffer("buffer", {64});
+  auto pass = graph.callback("both", recordNothing);
+  graph.exported(pass.store("texture", texture), test::kSampled);
+  graph.exported(pass.store("buffer", buffer), test::kSampled);
+  const CompileResult result = compile(graph.desc(), TableMemoryModel());
+  ASSERT_TRUE(result.ok()) << result.text();
+  const PlannedResource& image = result.plan.resources[texture.resource];
+  const PlannedResource& bytes = result.plan.resources[buffer.resource];
+  EXPECT_NE(image.imageUsage, 0U);
+  EXPECT_EQ(image.bufferUsage, 0U);
+  EXPECT_NE(bytes.bufferUsage, 0U);
+  EXPECT_EQ(bytes.imageUsage, 0U);
 }
 
 TEST(Compile, ChainOfPassesSharesMemoryAndHasOneBarrierPerAccess) {

@@ -241,6 +241,12 @@ TEST_F(DiagnosticsTest, BindingNotInShader) {
   expect(code::kBindingNotInShader, "filter", "output");
 }
 
+TEST_F(DiagnosticsTest, AccessOfAShaderWithoutABinding) {
+  auto pass = filter();
+  static_cast<void>(pass.access(written(), Access::SampledRead));
+  expect(code::kBindingNotInShader, "filter", "output");
+}
+
 TEST_F(DiagnosticsTest, BindingNotDeclared) {
   PassBuilder pass = graph.compute("filter", kFilter);
   const auto line = __LINE__ - 1;

@@ -207,6 +207,20 @@ TEST_F(ExecutorTest, CallbackPassRecordsIntoTheFrame) {
   EXPECT_EQ(run.texels<std::uint32_t>(target), constant(43));
 }
 
+TEST_F(ExecutorTest, ACallbackThatNamesNoResourceIsAnError) {
+  Graph graph;
+  const Texture target = importOutput(graph, "out");
+  auto pass = graph.callback("clear", [](const RecordContext& record) {
+    EXPECT_THROW((void)record.image(Texture{}), std::out_of_range);
+    EXPECT_THROW((void)record.view(Texture{}), std::out_of_range);
+    EXPECT_THROW((void)record.buffer(Buffer{}), std::out_of_range);
+  });
+  const Texture nothing = pass.access(graph.texture("nothing", kTexture), Access::TransferWrite);
+  graph.exported(add(graph, "add", nothing, target, 1), vk::kReadable);
+  GraphRun run(device(), graph);
+  run.frame();
+}
+
 TEST_F(ExecutorTest, ImportWithoutImageIsRefusedByName) {
   Graph graph;
   const Texture out = chain(graph, 0, 2);
@@ -456,6 +470,16 @@ TEST_F(PipelineCacheTest, DamagedFileCountsAsEmpty) {
   vk::PipelineCache cache(context(), file_);
   EXPECT_EQ(cache.loadedBytes(), 0u);
   runWith(cache);
+}
+
+TEST_F(PipelineCacheTest, AFolderInThePlaceOfTheFileCountsAsEmptyAndIsNamed) {
+  std::filesystem::create_directories(file_ / "inside");
+  vk::PipelineCache cache(context(), file_);
+  EXPECT_EQ(cache.loadedBytes(), 0u);
+  runWith(cache);
+  expectError<std::filesystem::filesystem_error>([&] { cache.save(); }, {file_.string()});
+  const std::filesystem::directory_iterator left(directory_.path());
+  EXPECT_EQ(std::distance(begin(left), end(left)), 1) << "a temporary file is left";
 }
 
 TEST_F(PipelineCacheTest, UnwritableFileIsNamed) {

@@ -92,5 +92,17 @@ TEST_F(ExecutorsThatShare, OfOneMemberShareNoMemory) {
   EXPECT_NE(objects.transientMemory(larger, second), memory);
 }
 
+TEST_F(ExecutorsThatShare, ShareAgainOnceAllAreReplaced) {
+  vk::SharedObjects objects(context());
+  const MemoryRequirements needed{.size = 4096, .alignment = 256, .memoryTypeBits = ~0U};
+  const std::uint32_t first = objects.addMember();
+  const std::uint32_t second = objects.addMember();
+  const auto replaced = objects.transientMemory(needed, first);
+  EXPECT_EQ(objects.transientMemory(needed, second), replaced);
+  const auto memory = objects.transientMemory(needed, first);
+  EXPECT_NE(memory, replaced);
+  EXPECT_EQ(objects.transientMemory(needed, second), memory);
+}
+
 }  // namespace
 }  // namespace fg::test
