@@ -122,6 +122,7 @@ class Description {
   [[nodiscard]] fg::Extent extent() const { return extent_; }
   /// Whether only a rectangle of the images is denoised.
   [[nodiscard]] bool rectangle() const { return conventions_.rectangle == VK_TRUE; }
+  [[nodiscard]] bool orthographic() const { return conventions_.orthographic == VK_TRUE; }
   /// Format of the result's image.
   [[nodiscard]] VkFormat resultFormat() const { return resultFormat_; }
   [[nodiscard]] std::uint32_t slots() const { return slots_; }

@@ -235,6 +235,12 @@ FrameImages HostedDenoiser::checkedImages(const WalrFrame& frame) const {
                                                    "WalrDenoiserInfo::light_kind of WALR_LIGHT_SPECULAR");
     }
     ImageNeeds needs = declared_->needs[i];
+    if (given != nullptr && !needs.used && slot.role == ImageRole::Inspection) {
+      throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                  "WalrFrame has the image '" + slot.name() +
+                      "', which the denoiser does not write: ask for it in WalrDenoiserInfo, or for a view with "
+                      "walr_set_view, or give null");
+    }
     if (description_.rectangle() && slot.role != ImageRole::Inspection)
       needs.offset = {frame.offset[0], frame.offset[1]};
     images[i] = checkedImage(i, given, needs, device().context().view.queueFamily);

@@ -65,6 +65,12 @@ void HostedPasses::continueFrom(const HostedPasses& last) {
                                                  last.description_.methodName() +
                                                  "': create both with the same method and conventions");
   }
+  if (description_.inputConventions().light != last.description_.inputConventions().light ||
+      description_.orthographic() != last.description_.orthographic()) {
+    throw Error(WALR_ERROR_INVALID_ARGUMENT,
+                "the passes to continue from have other pixels with samples, or another kind of camera: create both "
+                "with the same WalrConventions::light_group, light_masked, light_counted and orthographic");
+  }
   const std::vector<WalrLightKind>& kinds = description_.lightKinds();
   const std::vector<WalrLightKind>& before = last.description_.lightKinds();
   if (!std::equal(kinds.begin(), kinds.begin() + std::ptrdiff_t(std::min(kinds.size(), before.size())),
@@ -90,6 +96,12 @@ void HostedPasses::continueFrom(const HostedPasses& last) {
 }
 
 void HostedPasses::beginFrame(const WalrPassFrame& frame) {
+  if ((frame.flags & WALR_FRAME_RESET_HISTORY) != 0) {
+    throw Error(
+        WALR_ERROR_INVALID_ARGUMENT,
+        "WalrPassFrame::flags has WALR_FRAME_RESET_HISTORY, but the histories are the host's: give no image for "
+        "the previous ones");
+  }
   checkFlags(frame.flags, WALR_FRAME_INDEX_GIVEN, "WalrPassFrame::flags");
   const FrameStatement statement = statementOf(frame);
   const Constants constants = description_.constants(statement);

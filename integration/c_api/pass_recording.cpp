@@ -150,6 +150,9 @@ void PassRecording::forget(std::uint64_t identity) {
 void PassRecording::clear(VkCommandBuffer commandBuffer, const Zeros& zeros) const {
   VkImageMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  // After the clear and the reads of the frame before.
+  barrier.srcStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
   barrier.dstStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT;
   barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
   barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
@@ -193,12 +196,10 @@ VkImageView PassRecording::zeros(const WalrDispatch& pass, std::uint32_t resourc
   return known->second.view.get();
 }
 
-/// Clear what was created for a pass. Nothing fails after that, so that the commands are not thrown away.
+/// Clear what a pass reads in this frame, also if it was cleared before: the host may have thrown those commands away.
 void PassRecording::clearZeros(VkCommandBuffer commandBuffer, const WalrDispatch& pass) {
   for (auto& [key, zeros] : zeros_) {
-    if (key.first != &pass || zeros.cleared) continue;
-    clear(commandBuffer, zeros);
-    zeros.cleared = true;
+    if (key.first == &pass && zeros.lastFrame == frame_) clear(commandBuffer, zeros);
   }
 }
 

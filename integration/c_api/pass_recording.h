@@ -51,7 +51,6 @@ class PassRecording {
     fg::vk::Owned<VkImage> image;
     fg::vk::Owned<VkImageView> view;
     std::uint64_t lastFrame = 0;
-    bool cleared = false;
   };
   struct Upload {
     fg::vk::Owned<VkBuffer> buffer;

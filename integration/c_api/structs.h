@@ -59,6 +59,7 @@ Struct readStruct(const Struct* given, const char* name) {
   bool hasUnknown = std::any_of(bytes + knownSize, bytes + size, [](std::byte b) { return b != std::byte{0}; });
   // A newer header may have a field in place of `reserved`.
   if constexpr (requires { known.reserved; }) hasUnknown = hasUnknown || known.reserved != 0;
+  if constexpr (requires { known.reserved2; }) hasUnknown = hasUnknown || known.reserved2 != 0;
   if (hasUnknown) {
     throw Error(WALR_ERROR_STRUCT_SIZE, std::string(name) +
                                             " has fields set that this version of the library does not know: use the "

@@ -68,6 +68,7 @@ AT(WalrDenoiserInfo, expected_error, 144);
 AT(WalrDenoiserInfo, light_kind, 152);
 AT(WalrDenoiserInfo, roughness_format, 164);
 AT(WalrDenoiserInfo, specular_motion_format, 168);
+AT(WalrDenoiserInfo, reserved2, 172);
 SIZE(WalrImageRequirements, 24);
 SIZE(WalrImageState, 24);
 SIZE(WalrImage, 88);

@@ -109,6 +109,9 @@ static void test_create(const WalrDevice* device) {
   larger.info.reserved = 1;
   EXPECT(walr_create_denoiser(&larger.info, &denoiser), WALR_ERROR_STRUCT_SIZE, "does not know");
   larger.info.reserved = 0;
+  larger.info.reserved2 = 1;
+  EXPECT(walr_create_denoiser(&larger.info, &denoiser), WALR_ERROR_STRUCT_SIZE, "does not know");
+  larger.info.reserved2 = 0;
   EXPECT_OK(walr_create_denoiser(&larger.info, &denoiser));
   EXPECT_OK(walr_destroy_denoiser(denoiser));
 }
@@ -266,6 +269,18 @@ static void test_specular_light(const WalrDevice* device) {
   EXPECT_OK(walr_create_passes(&listed, &passes));
   EXPECT(walr_continue_passes(passes, diffuse), WALR_ERROR_INVALID_ARGUMENT, "another kind of light");
   EXPECT_OK(walr_destroy_passes(passes));
+  /* Nor is that of other pixels or cameras, or one that the library drops. */
+  const WalrConventions others[] = {{.struct_size = sizeof(WalrConventions), .light_group = {2, 2}},
+                                    {.struct_size = sizeof(WalrConventions), .orthographic = VK_TRUE}};
+  info.light_kind = WALR_LIGHT_DIFFUSE;
+  for (int i = 0; i < 2; ++i) {
+    info.conventions = &others[i];
+    EXPECT_OK(walr_create_passes(&listed, &passes));
+    EXPECT(walr_continue_passes(passes, diffuse), WALR_ERROR_INVALID_ARGUMENT, "light_group");
+    EXPECT_OK(walr_destroy_passes(passes));
+  }
+  const WalrPassFrame reset = {.struct_size = sizeof(reset), .flags = WALR_FRAME_RESET_HISTORY};
+  EXPECT(walr_begin_frame(diffuse, &reset), WALR_ERROR_INVALID_ARGUMENT, "histories are the host's");
   EXPECT_OK(walr_destroy_passes(diffuse));
 
   /* Each kind has an albedo. A caller with an older header has diffuse light. */

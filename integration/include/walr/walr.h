@@ -337,6 +337,7 @@ typedef struct WalrDenoiserInfo {
   VkFormat specular_albedo_format;
   VkFormat roughness_format;
   VkFormat specular_motion_format; /* Of WalrFrame::specular_motion; VK_FORMAT_UNDEFINED: no such image. */
+  uint32_t reserved2;
 } WalrDenoiserInfo;
 
 /* Creates no Vulkan object; see walr_prepare. */
@@ -455,7 +456,8 @@ typedef struct WalrFrame {
   const WalrImage* object_id; /* Optional, see WalrDenoiserInfo::object_id_format. */
   uint32_t offset[2];         /* With WalrConventions::rectangle: its first pixel, y down, the same in all images. */
   /* With WALR_FRAME_INDEX_GIVEN: seed of the frame's random numbers, so that a replay of the same frames has the same
-   * result. It must differ from frame to frame. Without the flag it is the number of frames recorded before. */
+   * result. It must rise by 1 from frame to frame of a denoiser: what takes turns over frames counts with it. Without
+   * the flag it is the number of frames recorded before. */
   uint32_t frame_index;
   uint32_t reserved;
   const WalrImage* view; /* Receives the view that walr_set_view has chosen. Null if there is none. */
