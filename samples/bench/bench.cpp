@@ -27,7 +27,9 @@ std::string sequenceKey(const GpuDevice& device, const NamedSequence& sequence, 
   key.add(std::to_string(conventions.light.columns) + " x " + std::to_string(conventions.light.rows));
   for (const Sequence::Entry& entry : sequence.sequence.entries()) {
     key.addFile(entry.file);
-    if (!entry.reference.empty()) key.addFile(entry.reference);
+    for (const std::filesystem::path& beside : {entry.reference, entry.specular}) {
+      if (!beside.empty()) key.addFile(beside);
+    }
     key.add(entry.resetHistory ? "reset" : "carried");
     // A frame's number chooses its random numbers.
     key.add(std::to_string(entry.number));
@@ -110,6 +112,12 @@ std::vector<NamedSequence> openSequences(const std::vector<std::filesystem::path
     if (std::ranges::find(sequences, named.name, &NamedSequence::name) != sequences.end()) {
       throw InputError("two sequences have the name '" + named.name +
                        "': the report identifies sequences by the names of their folders, so rename one");
+    }
+    const NamedSequence& first = sequences.empty() ? named : sequences.front();
+    if (named.sequence.denoiserLayout().conventions.light != first.sequence.denoiserLayout().conventions.light) {
+      throw InputError("the sequences '" + first.name + "' and '" + named.name +
+                       "' differ in the pixels that have a sample of light, and so in what methods cost: compare "
+                       "methods on each alone");
     }
     sequences.push_back(std::move(named));
   }

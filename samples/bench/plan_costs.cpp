@@ -22,8 +22,8 @@ PlanCosts planCosts(const Variant& variant, fg::Extent extent, const InputConven
           .persistentBytes = memory.persistentBytes,
           .transientUnaliasedBytes = memory.transientUnaliasedBytes,
           .transientPeakBytes = memory.transientPeakBytes,
-          .estimatedMicroseconds = estimatedMicroseconds(variant, extent, shaderFigures(),
-                                                         machineNamed(kDefaultMachine), conventions.specular)};
+          .estimatedMicroseconds =
+              estimatedMicroseconds(variant, extent, shaderFigures(), machineNamed(kDefaultMachine), conventions)};
 }
 
 }  // namespace walr

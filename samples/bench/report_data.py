@@ -75,12 +75,12 @@ class Bench:
         return cost["bytes_read_per_pixel"] + cost["bytes_written_per_pixel"]
 
     def floor(self, sequence):
-        """Noise of the reference as an RMSE, mean over frames; None if it is not known."""
+        """Noise of the reference as an RMSE, mean over frames that have one; None if it is not known."""
         if sequence is None:
             floors = [self.floor(s) for s in self.sequences]
             return None if None in floors else sum(floors) / len(floors)
-        values = [f["reference_noise"] for f in self.sequences[sequence]["frames"]]
-        return None if None in values else sum(values) / len(values)
+        values = [f["reference_noise"] for f in self.sequences[sequence]["frames"] if f["reference_noise"] is not None]
+        return sum(values) / len(values) if values else None
 
     def floor_by_roughness(self, sequence):
         """The same in each class of roughness; None in a class that is not known in every frame."""

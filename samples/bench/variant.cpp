@@ -28,8 +28,11 @@ Variant methodVariant(const std::string& text) {
   return variant;
 }
 
+/// Whether no other picture of the benchmark has a name that begins with this one: errors and their change end so, and
+/// the pictures that no variant made begin with "_".
 bool isFileName(const std::string& name) {
-  return !name.empty() && name.front() != '.' && std::ranges::all_of(name, [](unsigned char c) {
+  if (name.ends_with(".errors") || name.ends_with(".change")) return false;
+  return !name.empty() && name.front() != '.' && name.front() != '_' && std::ranges::all_of(name, [](unsigned char c) {
     return std::isalnum(c) != 0 || std::string_view(".:=-_").find(static_cast<char>(c)) != std::string_view::npos;
   });
 }
@@ -57,7 +60,9 @@ Variant parseVariant(const std::string& text, LightKinds lights) {
   const auto [name, rest] = splitOnce(text, '=');
   if (!isFileName(name) || rest.empty()) {
     throw std::invalid_argument(
-        "'" + text + "': give NAME=METHOD[:PRESET][,SETTING=VALUE]...; NAME consists of letters, digits and . : - _");
+        "'" + text +
+        "': give NAME=METHOD[:PRESET][,SETTING=VALUE]...; NAME consists of letters, digits and . : - _, does not begin "
+        "with . or _, and does not end with .errors or .change");
   }
   const std::vector<std::string> parts = split(rest, ',');
   Variant variant = methodVariant(parts.front());

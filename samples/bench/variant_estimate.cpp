@@ -19,10 +19,11 @@ bool hasDefaultSettings(const Variant& variant) {
 }  // namespace
 
 std::vector<PassEstimate> estimatePasses(const Variant& variant, fg::Extent extent, const FigureTable& table,
-                                         const Machine& machine, bool specular) {
-  InputConventions conventions;
-  conventions.specular = specular;
-  const DenoiseGraph declared = declareDenoiseGraph(*makeVariant(variant), extent, conventions, kComputeHost);
+                                         const Machine& machine, const InputConventions& conventions) {
+  InputConventions own;
+  own.specular = conventions.specular;
+  own.light = conventions.light;
+  const DenoiseGraph declared = declareDenoiseGraph(*makeVariant(variant), extent, own, kComputeHost);
   const fg::CompileResult result = fg::compile(declared.graph.desc(), fg::TableMemoryModel());
   if (!result.ok()) {
     throw std::runtime_error("the frame graph of '" + variant.name + "' does not compile:\n" + result.text());
@@ -40,9 +41,9 @@ std::vector<PassEstimate> estimatePasses(const Variant& variant, fg::Extent exte
 }
 
 std::optional<double> estimatedMicroseconds(const Variant& variant, fg::Extent extent, const FigureTable& table,
-                                            const Machine& machine, bool specular) {
+                                            const Machine& machine, const InputConventions& conventions) {
   FrameEstimate estimate;
-  for (const PassEstimate& pass : estimatePasses(variant, extent, table, machine, specular))
+  for (const PassEstimate& pass : estimatePasses(variant, extent, table, machine, conventions))
     estimate.add(pass.batch, pass.bounds);
   return estimate.microseconds();
 }

@@ -176,6 +176,9 @@ void refuseWithSpecularLight(const DenoiseOptions& options) {
 std::string chosenLight(const DenoiseOptions& options) {
   if (options.light == "specular" || options.light == "all") refuseWithSpecularLight(options);
   const bool directIsReference = options.directLight == "reference";
+  if (directIsReference && !options.output.composite) {
+    throw UsageError("--direct-light reference is of lit images: give --composite, too");
+  }
   if (options.light.empty()) return options.output.composite && !directIsReference ? "both" : "indirect";
   if (directIsReference && options.light != "indirect") {
     throw UsageError("--direct-light reference takes the direct light of lit images from the reference, and --light " +
@@ -278,6 +281,7 @@ void denoise(DenoiseOptions& options) {
   const std::string light = chosenLight(options);
   const std::vector<Light> lights = lightsOf(light);
   options.sequence.light = lightsToRead(options.output, lights);
+  options.sequence.keepSomeDirect = std::ranges::find(lights, Light::Direct) != lights.end();
   options.output.referenceDirect = options.directLight == "reference";
   options.output.exposure = parseExposure(options.exposure);
   options.sequence.nonFinite = options.nonFinite == "replace" ? NonFinitePolicy::Replace : NonFinitePolicy::Fail;
@@ -415,14 +419,16 @@ void registerDenoise(CLI::App& program) {
       ->check(CLI::IsMember({"frame", "reference"}))
       ->type_name("")
       ->capture_default_str();
-  command->add_flag("--png", options->output.png,
-                    "Also write denoised_FFFF.png and comparison_FFFF.png (noisy | denoised | reference), tone-mapped "
-                    "by x/(1+x), then sRGB; with --composite the lit image, and beside or below it each light alone");
+  CLI::Option* const png = command->add_flag(
+      "--png", options->output.png,
+      "Also write denoised_FFFF.png and comparison_FFFF.png (noisy | denoised | reference), tone-mapped "
+      "by x/(1+x), then sRGB; with --composite the lit image, and beside or below it each light alone");
   command
       ->add_option(
           "--exposure", options->exposure,
-          "Exposure of the PNGs in stops: a number, or auto, which maps the log-average luminance to middle grey "
+          "With --png: their exposure in stops: a number, or auto, which maps the log-average luminance to middle grey "
           "(Reinhard et al. 2002) at the first frame and after each camera cut")
+      ->needs(png)
       ->type_name("auto|EV")
       ->capture_default_str();
   command

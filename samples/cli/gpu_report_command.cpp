@@ -159,7 +159,7 @@ void registerGpuReport(CLI::App& program) {
   constexpr double kShortest = 0.0;
   constexpr double kLongest = 1000.0;
   command->add_option("--minutes", options.minutes, "Begin no further measurement after this time")
-      ->check(CLI::Range(kShortest, kLongest))
+      ->check(numberFrom(kShortest, kLongest))
       ->capture_default_str();
   command->add_flag("--quick", options.quick,
                     "A few frames of small pictures: shows that everything runs, but its times mean nothing");

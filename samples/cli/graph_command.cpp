@@ -128,6 +128,10 @@ std::vector<DenoisedLight> lightsOf(const GraphOptions& options, Denoiser& metho
 }
 
 void printGraph(const GraphOptions& options) {
+  if ((options.listSettings || options.listPasses) &&
+      (options.json || options.dot || options.svg || !options.why.empty())) {
+    throw UsageError("--list-settings and --list-passes print text: leave out --json, --dot, --svg and --why");
+  }
   if (options.listPasses) {
     return write(passListing(), options.output);
   }

@@ -15,6 +15,7 @@
 #include "samples/command_line/light_rate.h"
 #include "samples/command_line/resampled_frames.h"
 #include "samples/command_line/tracer_option.h"
+#include "samples/command_line/tracing_options.h"
 #include "samples/command_line/usage_error.h"
 #include "samples/denoise/gpu_device.h"
 #include "samples/denoise/progress.h"
@@ -35,7 +36,12 @@ struct RenderArguments {
 
 /// The device to trace on; null for the processor. Says on the terminal which of the two it is, if that was a choice.
 std::unique_ptr<GpuDevice> tracingDevice(const RenderArguments& arguments) {
-  if (!mayTraceOnGpu(arguments.tracer)) return nullptr;
+  if (!mayTraceOnGpu(arguments.tracer)) {
+    if (arguments.gpu.validation || !arguments.gpu.device.empty()) {
+      throw UsageError("--device and --validate are of a Vulkan device: give --tracer gpu or auto, too");
+    }
+    return nullptr;
+  }
   GpuDevice::Options options = arguments.gpu;
   options.rayQueries = true;
   try {
@@ -127,27 +133,8 @@ void registerRender(CLI::App& program) {
           "Render the reference of one in N squares of 64 x 64 pixels, evenly spread; errors leave out the rest")
       ->check(CLI::Range(1U, kFewestSquares))
       ->capture_default_str();
-  constexpr std::uint32_t kMostBounces = 1024;
-  command->add_option("--bounces", options.bounces, "Largest number of surfaces after the first that reflect light")
-      ->check(CLI::Range(0U, kMostBounces))
-      ->capture_default_str();
+  addTracingOptions(*command, options);
   addResampledFrames(*command, options.resampledFrames);
-  // Each has two sequences of random numbers, of noisy frames and of references.
-  constexpr std::uint32_t kLargestSeed = (1U << 31U) - 1;
-  command->add_option("--seed", options.seed, "Seed of the random numbers")
-      ->check(CLI::Range(0U, kLargestSeed))
-      ->capture_default_str();
-  constexpr double kSlowest = 1e-3;
-  constexpr double kFastest = 1e6;
-  command->add_option("--fps", options.framesPerSecond, "Frames per second of the animation")
-      ->check(numberFrom(kSlowest, kFastest))
-      ->capture_default_str();
-  command->add_option("--camera", options.camera, "Name of the camera or of its node; default: the first");
-  command->add_option(
-      "--sky", options.sky,
-      "Equirectangular sky that replaces the scene's: an EXR file with R,G,B; its centre lies along -Z");
-  command->add_flag("--jitter", options.jitter,
-                    "Jitter the sample position within the pixel: 16 Halton points, one per frame");
   using render::DiffuseModel;
   using Kind = render::Sampler::Kind;
   addChoice<Kind, Kind>(

@@ -99,6 +99,11 @@ class Reporter {
 
   GpuReport run() {
     const auto start = Clock::now();
+    // A file that cannot be read must show before anything is measured.
+    if (options_.sequence != nullptr) {
+      static_cast<void>(given());
+      static_cast<void>(sequenceContent(*options_.sequence, options_.sequenceName));
+    }
     report_.build = buildInfo();
     report_.quick = options_.quick;
     progress_("validation");

@@ -13,17 +13,20 @@
 namespace walr {
 namespace {
 
-std::vector<PassModel> modelsOf(const Variant& variant, fg::Extent extent,
+std::vector<PassModel> modelsOf(const Variant& variant, const TimedContent& content,
                                 const std::optional<ModelMachines>& machines) {
+  const auto estimatesOn = [&](const Machine& machine) {
+    return estimatePasses(variant, content.extent, shaderFigures(), machine, content.layout->conventions);
+  };
   const Machine& machine = machines ? machines->peak : machineNamed(kDefaultMachine);
-  const auto peak = estimatePasses(variant, extent, shaderFigures(), machine);
+  const auto peak = estimatesOn(machine);
   std::vector<PassModel> models;
   models.reserve(peak.size());
   for (const PassEstimate& pass : peak) {
     models.push_back({.batch = pass.batch, .bytes = static_cast<double>(pass.bytes), .peak = {}, .attainable = {}});
   }
   if (!machines) return models;
-  const auto attainable = estimatePasses(variant, extent, shaderFigures(), machines->attainable);
+  const auto attainable = estimatesOn(machines->attainable);
   for (std::size_t i = 0; i < models.size(); ++i) {
     models[i].peak = peak[i].bounds;
     models[i].attainable = attainable[i].bounds;
@@ -102,7 +105,7 @@ MethodTimes timeMethod(const GpuDevice& device, const Variant& variant, const Ti
     FrameTimes times;
     loop.run(effort.timed, &times);
     result.timing = times.timing();
-    result.models = modelsOf(variant, content.extent, machines);
+    result.models = modelsOf(variant, content, machines);
   } catch (const fg::vk::DeviceLost&) {
     throw;
   } catch (const std::invalid_argument& error) {

@@ -8,6 +8,7 @@
 #include "samples/command_line/device_options.h"
 #include "samples/command_line/light_rate.h"
 #include "samples/command_line/resampled_frames.h"
+#include "samples/command_line/tracing_options.h"
 #include "samples/command_line/usage_error.h"
 
 namespace walr::host {
@@ -83,21 +84,7 @@ void addHostOptions(CLI::App& program, HostOptions& options) {
                   "while nothing moves")
       ->check(CLI::Range(1U, kMostSamples))
       ->capture_default_str();
-  constexpr std::uint32_t kMostBounces = 1024;
-  program.add_option("--bounces", tracer.bounces, "Largest number of surfaces after the first that reflect light")
-      ->check(CLI::Range(0U, kMostBounces))
-      ->capture_default_str();
-  program.add_option("--seed", tracer.seed, "Seed of the random numbers")->capture_default_str();
-  constexpr double kSlowest = 1e-3;
-  constexpr double kFastest = 1e6;
-  program.add_option("--fps", tracer.framesPerSecond, "Frames per second of the animation")
-      ->check(numberFrom(kSlowest, kFastest))
-      ->capture_default_str();
-  program.add_option("--camera", tracer.camera, "Name of the camera or of its node; default: the first");
-  program.add_option("--sky", tracer.sky,
-                     "Equirectangular sky that replaces the scene's: an EXR file with R,G,B; its centre lies along -Z");
-  program.add_flag("--jitter", tracer.jitter,
-                   "Jitter the sample position within the pixel: 16 Halton points, one per frame");
+  addTracingOptions(program, tracer);
   addChoice<bool, bool>(
       program, "--direct", tracer.denoiseDirect, {{"denoised", true}, {"noisy", false}}, "denoised",
       "Direct light: denoised together with the indirect light, or noisy as it was traced. Lamps and skies "
@@ -132,7 +119,8 @@ MethodOptions parseCompare(const std::string& text) {
   method.name = text.substr(0, colon);
   if (colon != std::string::npos) method.preset = text.substr(colon + 1);
   try {
-    (void)makeDenoiser(method.name);
+    const std::unique_ptr<Denoiser> made = makeDenoiser(method.name);
+    if (!method.preset.empty()) made->usePreset(method.preset);
   } catch (const std::invalid_argument& error) {
     throw UsageError("--compare " + text + ": " + error.what());
   }

@@ -77,12 +77,13 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   if (options.targetMilliseconds > 0.0) {
     throw UsageError("--target-ms: without a window, all frames have the size of --size");
   }
+  if (options.once) throw UsageError("--once: without a window, frames are rendered once in any case");
   if (options.lint) throw UsageError("--lint: without a window, check frames of walr render with walr lint");
   const FrameRange frames = parseFrameRange(options.frames);
   const fg::Extent extent = options.tracer.extent;
   std::optional<WebpAnimation> animation;
   if (!options.record.empty()) {
-    if (options.record.has_parent_path()) prepareOutputDirectory(options.record.parent_path());
+    prepareOutputFile(options.record);
     animation.emplace(static_cast<int>(extent.width), static_cast<int>(extent.height), options.tracer.framesPerSecond);
   }
   Renderer::Options rendering;

@@ -34,7 +34,8 @@ void forEachTile(std::uint32_t width, std::uint32_t height, unsigned int threads
       }
     }
   };
-  const unsigned int count = threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned int wanted = threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned int count = std::min(wanted, columns * rows);
   {
     std::vector<std::jthread> workers;
     for (unsigned int i = 1; i < count; ++i) {

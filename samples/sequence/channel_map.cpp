@@ -124,7 +124,7 @@ void projectDistance(Image& depth, const Camera& camera) {
 void divideByAlbedo(Image& light, const Image& albedo) {
   for (std::size_t i = 0; i < light.values().size(); ++i) {
     const float reflected = albedo.values()[i];
-    light.values()[i] = reflected > 0.0F ? light.values()[i] / reflected : 0.0F;
+    light.values()[i] = reflected <= 0.0F ? 0.0F : light.values()[i] / reflected;  // NaN if the albedo is.
   }
 }
 

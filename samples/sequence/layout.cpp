@@ -198,11 +198,9 @@ void addTargets(std::vector<ExrReader::Target>& targets, const RecognizedLayout&
   }
 }
 
-/// Whether a reference has no value at a pixel, which is written as NaN in all components.
-bool leftOut(std::span<const ExrReader::Target> targets, std::size_t pixel) {
-  return std::ranges::all_of(targets, [&](const ExrReader::Target& target) {
-    return std::isnan(target.image->pixel(pixel)[static_cast<std::size_t>(target.component)]);
-  });
+/// Whether an image of a reference has no value at a pixel, which is written as NaN in all components.
+bool leftOut(const Image& image, std::size_t pixel) {
+  return std::ranges::all_of(image.pixel(pixel), [](float value) { return std::isnan(value); });
 }
 
 void findNonFinite(const std::filesystem::path& path, std::span<const ExrReader::Target> targets, bool mayLeaveOut,
@@ -212,7 +210,7 @@ void findNonFinite(const std::filesystem::path& path, std::span<const ExrReader:
     NonFiniteChannel channel{path, target.channel};
     for (std::size_t i = 0; i < image.pixelCount(); ++i) {
       if (std::isfinite(image.pixel(i)[static_cast<std::size_t>(target.component)]) ||
-          (mayLeaveOut && leftOut(targets, i))) {
+          (mayLeaveOut && leftOut(image, i))) {
         continue;
       }
       if (channel.count++ == 0) {
@@ -357,8 +355,9 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
       continue;
     }
     if (!viewLayer.empty() && !layers.contains(std::string(viewLayer))) {
-      throw InputError(file.path().string() + ": no view layer '" + std::string(viewLayer) +
-                       "'; the file has: " + join(layers));
+      const bool none = layers == std::set<std::string>{""};
+      throw InputError(file.path().string() + ": no view layer '" + std::string(viewLayer) + "'; " +
+                       (none ? "its channels have none: leave out --view-layer" : "the file has: " + join(layers)));
     }
     if (viewLayer.empty() && layers.size() > 1) {
       throw InputError(file.path().string() + ": several view layers (" + join(layers) +
@@ -391,7 +390,8 @@ RecognizedLayout recognizeLayout(const ExrReader& file, std::string_view viewLay
 RecognizedLayout mappedLayout(const ExrReader& file, std::shared_ptr<const ChannelMap> map) {
   RecognizedLayout mapped{&map->layout, {}};
   mapped.map = std::move(map);
-  mapped.objectIds = hasPlane(file, mapped, mapped.layout->objectId);
+  mapped.objectIds = mapped.map->channels.contains(std::string(mapped.layout->objectId.name) + ".Y") ||
+                     hasPlane(file, mapped, mapped.layout->objectId);
   mapped.specular = mapped.map->specular;
   mapped.added = mapped.map->added;
   return mapped;
@@ -515,7 +515,6 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, const L
   const bool readsIndirect = wanted.indirect && hasPlane(file, layout, indirect);
   if (readsIndirect) addPlane(indirect, reference.indirect);
   if (wanted.direct && hasPlane(file, layout, direct)) addPlane(direct, reference.direct);
-  const std::size_t checked = targets.size();
   Image albedo;
   const bool divides = layout.map != nullptr && layout.map->lightTimesAlbedo;
   if (divides && !targets.empty()) addPlane(planeOf(*layout.layout, Role::Albedo), albedo);
@@ -543,7 +542,7 @@ Reference readReference(ExrReader& file, const RecognizedLayout& layout, const L
   for (std::size_t i = 0; i < sums.size(); ++i) {
     for (const Image& part : parts.at(i)) addPart(part, *sums.at(i));
   }
-  findNonFinite(file.path(), std::span(targets).first(checked), true, nonFinite);
+  findNonFinite(file.path(), targets, true, nonFinite);
   if (divides) {
     for (Image* const light : {&reference.indirect, &reference.direct, &reference.indirectHalf}) {
       divideByAlbedo(*light, albedo);

@@ -241,6 +241,10 @@ void Sequence::chooseSpecularFiles() {
 
 RecognizedLayout Sequence::layoutOf(const ExrReader& file) const {
   if (options_.channelMap.empty()) return recognizeLayout(file, options_.viewLayer);
+  if (!options_.viewLayer.empty()) {
+    throw InputError(options_.channelMap.string() + ": a map of channels names whole channels, with the view layer '" +
+                     options_.viewLayer + "' if they have it: give either --channels or --view-layer");
+  }
   const auto map = std::make_shared<ChannelMap>();
   readChannelMap(options_.channelMap, *map);
   return mappedLayout(file, map);
@@ -347,8 +351,9 @@ Frame Sequence::read(std::size_t index) const {
     std::ranges::fill(frame.specularDistance.values(), kBackgroundDepth);
   }
   if (layout_.map != nullptr) convertByMap(*layout_.map, frame);
-  if (!options_.keptLight.everyPixel() && options_.light.indirect) {
+  if (!options_.keptLight.everyPixel()) {
     clearUnsampled(frame.indirect, frame.light, frame.lightOffset);
+    if (options_.keepSomeDirect) clearUnsampled(frame.direct, frame.light, frame.lightOffset);
   }
   if (!entry.reference.empty()) {
     ExrReader reference(entry.reference, options_.stereoView);

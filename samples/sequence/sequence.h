@@ -37,6 +37,7 @@ struct SequenceOptions {
   /// Of frames with a sample of indirect light at every pixel, keep those at the pixels of this pattern, other ones in
   /// each frame (`lightOffsetOfFrame`), to see what sparse light would cost. The other samples become 0.
   LightPattern keptLight;
+  bool keepSomeDirect = false;  ///< The same of direct light, which is denoised, too.
 };
 
 /// A folder of frames. The constructor checks names, numbers, channels, sizes and cameras of all frames before any

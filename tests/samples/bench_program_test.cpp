@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "samples/sequence/writer.h"
 #include "tests/samples/process.h"
 #include "tests/samples/schema_check.h"
 #include "tests/samples/synthetic_sequence.h"
@@ -188,6 +189,34 @@ TEST_F(BenchProgramTest, RunsOnlyWhatIsMissingOrHasChanged) {
   EXPECT_NE(found.err.find("0 of 2 variants"), std::string::npos) << found.err;
 }
 
+// The distances and roughness of Cycles' glossy light are in a file beside the frame.
+TEST_F(BenchProgramTest, RunsAgainWhereTheFileOfDistancesHasChanged) {
+  const auto fill = [](test::Channels& channels, const std::string& plane, float value) {
+    for (const char component : {'R', 'G', 'B'}) {
+      Image& image = channels[plane + "." + component] = Image(40, 36, 1);
+      std::ranges::fill(image.values(), value);
+    }
+  };
+  const auto gloss = [&](test::Channels& channels) {
+    for (const char* const plane : {"GlossDir", "GlossInd", "GlossCol"}) fill(channels, plane, 0.5F);
+  };
+  const test::SyntheticSequence files(input, 40, 36);
+  const auto writeRoughness = [&](float roughness) {
+    test::Channels sums;
+    for (const char* const plane : {"GlossDir", "Emit"}) fill(sums, plane, 1.0F);
+    std::ranges::fill(sums.at("GlossDir.R").values(), roughness);
+    test::writeChannels(input / "specular_0000.exr", sums);
+  };
+  files.writeFrame(0, gloss);
+  files.writeReference(0, gloss);
+  writeRoughness(0.5F);
+  const auto run = [&] { return bench(first, {"--methods", "none", "--light", "specular", "--frames", "0-0"}).err; };
+  EXPECT_NE(run().find("0 of 2 variants"), std::string::npos);
+  EXPECT_NE(run().find("2 of 2 variants"), std::string::npos);
+  writeRoughness(0.75F);
+  EXPECT_NE(run().find("0 of 2 variants"), std::string::npos);
+}
+
 /// References are expensive. Frames without one are run as well, but have no errors.
 TEST_F(BenchProgramTest, MeasuresTheFramesThatHaveAReference) {
   expectSuccess(bench(first, {"--methods", "accumulate"}));
@@ -247,6 +276,13 @@ TEST_F(BenchProgramTest, WhatIsWrongIsNamedBeforeAnythingIsWritten) {
   expectFailure(bench(first, {"--methods", "magic"}), kUsage, {"magic"});
   expectFailure(bench(first, {"--variant", "x=walr,magic=1"}), kUsage, {"magic"});
   expectFailure(bench(first, {"--sequences", (directory.path() / "nowhere").string()}), kInput, {"nowhere"});
+  const fs::path sparse = directory.path() / "sparse";
+  fs::create_directory(sparse);
+  Frame frame = test::projectFrame(0, 40, 36);
+  frame.light = {.columns = 2, .rows = 2};
+  writeFrame(sparse, frame);
+  writeReference(sparse, 0, {.indirect = frame.indirect});
+  expectFailure(bench(first, {"--sequences", sparse.string()}), kInput, {"'sparse'", "sample of light"});
   for (int frame = 0; frame < 6; ++frame) fs::remove(input / ("ref_000" + std::to_string(frame) + ".exr"));
   expectFailure(bench(first, {}), kInput, {"no frame has a reference"});
   EXPECT_FALSE(fs::exists(first));

@@ -15,7 +15,10 @@
 #include "samples/bench/run_record.h"
 #include "samples/bench/spread.h"
 #include "samples/bench/variant.h"
+#include "samples/bench/variant_estimate.h"
 #include "samples/errors.h"
+#include "samples/estimate/machine.h"
+#include "samples/estimate/shader_figures.h"
 #include "samples/image/fingerprint.h"
 #include "tests/error_text.h"
 #include "tests/samples/synthetic_sequence.h"
@@ -108,7 +111,8 @@ TEST(Variants, NameWhatIsWrong) {
   expectError<std::exception>([] { parseMethods("walr:fancy"); }, {"fancy"});
   expectError<std::exception>([] { parseVariant("x=walr,nothing=1"); }, {"nothing"});
   expectError<std::exception>([] { parseVariant("walr"); }, {"NAME=METHOD"});
-  expectError<std::exception>([] { parseVariant("../x=walr"); }, {"NAME=METHOD"});
+  for (const char* const name : {"../x", "_reference", "svgf.errors", "svgf.change"})
+    expectError<std::exception>([&] { parseVariant(std::string(name) + "=walr"); }, {"NAME=METHOD"});
   expectError<std::exception>([] { withBaseline({parseVariant("a=walr"), parseVariant("a=bmfr")}); }, {"'a'"});
   expectError<std::exception>([] { withBaseline(parseMethods("flr,flr")); }, {"'flr'"});
 }
@@ -134,6 +138,27 @@ TEST(PlanCostsTest, SharedMemoryIsNoLargerThanUnshared) {
     const PlanCosts costs = planCosts(variant, {320, 180}, {});
     EXPECT_LE(costs.transientPeakBytes, costs.transientUnaliasedBytes) << variant.name;
   }
+}
+
+// The passes of sparse light are others, and the table of figures does not hold their shaders.
+TEST(PassEstimates, AreOfTheLightOfTheSequence) {
+  const Variant walr = parseMethods("walr").front();
+  constexpr fg::Extent kExtent{1920, 1080};
+  InputConventions sparse;
+  sparse.light = {.columns = 2, .rows = 2};
+  const auto estimatesOf = [&](const InputConventions& conventions) {
+    return estimatePasses(walr, kExtent, shaderFigures(), machineNamed(kDefaultMachine), conventions);
+  };
+  const auto bytesOf = [](const std::vector<PassEstimate>& estimates) {
+    return std::accumulate(estimates.begin(), estimates.end(), 0.0,
+                           [](double sum, const PassEstimate& pass) { return sum + double(pass.bytes); });
+  };
+  const PlanCosts costs = planCosts(walr, kExtent, sparse);
+  EXPECT_DOUBLE_EQ(bytesOf(estimatesOf(sparse)),
+                   (costs.bytesReadPerPixel + costs.bytesWrittenPerPixel) * kExtent.width * kExtent.height);
+  EXPECT_NE(bytesOf(estimatesOf(sparse)), bytesOf(estimatesOf({})));
+  EXPECT_FALSE(costs.estimatedMicroseconds);
+  EXPECT_TRUE(planCosts(walr, kExtent, {}).estimatedMicroseconds);
 }
 
 RunRecord someRecord() {

@@ -121,10 +121,12 @@ TEST_F(HostProgramTest, RefusesCommandLinesWithoutMeaning) {
   expectUsage({scene, "--record", output.string() + "/host.webp", "--exr"}, "--exr: EXR files are written to a folder");
   expectUsage({scene, "-o", output.string(), "--frames", "0-1000000000"}, "up to nine digits");
   expectUsage({scene, "-o", output.string(), "--target-ms", "16"}, "--target-ms");
+  expectUsage({scene, "-o", output.string(), "--once"}, "--once");
+  expectUsage({scene, "-o", output.string(), "--seed", "2147483648"}, "--seed");
   expectUsage({scene, "-o", output.string(), "--frames", "3-1"}, "--frames 3-1");
   expectUsage({scene, "-o", output.string(), "--set", "nothing=1"}, "nothing");
   expectUsage({scene, "-o", output.string(), "--compare", "nothing"}, "--compare nothing");
-  expectUsage({scene, "-o", output.string(), "--compare", "walr:nothing"}, "nothing");
+  expectUsage({scene, "-o", output.string(), "--compare", "walr:nothing"}, "--compare walr:nothing");
   expectUsage({scene, "-o", output.string(), "--compare", "svgf", "--view", "noisy"}, "--compare");
   expectUsage({scene, "-o", output.string(), "--light-rate", "1/3"}, "--light-rate");
   expectUsage({scene, "-o", output.string(), "--light-rate", "1/4", "--resampled-frames", "20"}, "--resampled-frames");
@@ -154,6 +156,14 @@ TEST_F(HostProgramTest, NamesTheSceneThatCannotBeRead) {
   const fs::path broken = folder.path() / "broken.glb";
   test::writeText(broken, "glTF");
   test::expectFailure(host({broken.string(), "-o", output.string()}), kInput, {broken.string()});
+}
+
+TEST_F(HostProgramTest, NamesAFileThatCannotBeWrittenBeforeItRenders) {
+  const fs::path taken = folder.path() / "taken.webp";
+  fs::create_directory(taken);
+  const test::ProcessResult result = host({scene, "--record", taken.string()});
+  test::expectFailure(result, kOutput, {taken.string()});
+  EXPECT_EQ(result.err.find("frame 1"), std::string::npos) << result.err;
 }
 
 TEST_F(HostProgramTest, NamesAFolderThatCannotBeMade) {

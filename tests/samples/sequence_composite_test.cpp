@@ -1,8 +1,10 @@
 // Light of a frame beside what is denoised: that of whole pictures.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -130,6 +132,28 @@ TEST_F(CompositeSequence, SparseSpecularLightHasNoComposite) {
   EXPECT_FALSE(open(options).read(0).specular.empty());
   options.light.rest = true;
   expectRefused({"noisy_0000.exr", "specular light", "--composite"}, options);
+}
+
+// Each light of a reference, and each half of its samples, is left out or wrong by itself.
+TEST_F(CompositeSequence, EveryLightOfAReferenceIsChecked) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  writeFrame(directory.path(), test::projectFrame(7, 6, 4));
+  const Image light(6, 4, 3);
+  Reference reference{.indirect = light, .direct = light, .indirectHalf = light, .specular = light};
+  for (float& value : reference.direct.pixel(5)) value = kNone;
+  writeReference(directory.path(), 7, reference);
+  SequenceOptions options;
+  options.light = {.direct = true, .specular = SpecularWish::IfHeld};
+  EXPECT_TRUE(std::isnan(open(options).read(0).reference->direct.pixel(5)[1]));
+
+  const auto expectNamed = [&](Image& image, std::string_view channel) {
+    image.pixel(9)[1] = kNone;
+    writeReference(directory.path(), 7, reference);
+    fg::test::expectError<InputError>([&] { static_cast<void>(open(options).read(0)); }, {channel, "has 1 value(s)"});
+    image.pixel(9)[1] = 0.0F;
+  };
+  expectNamed(reference.direct, "Direct.G");
+  expectNamed(reference.indirectHalf, "IndirectA.G");
 }
 
 }  // namespace

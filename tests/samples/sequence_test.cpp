@@ -254,6 +254,20 @@ TEST_F(SequenceTest, KeepsTheShareOfTheLightThatIsAskedFor) {
   }
   EXPECT_EQ(sequence.read(1).previousLightOffset, sequence.read(0).lightOffset);
   EXPECT_NE(sequence.read(1).previousLightOffset, sequence.read(1).lightOffset);
+
+  // Direct light is taken whole, unless it is denoised, too.
+  options.light.direct = true;
+  const Image direct = open(options).read(0).direct;
+  options.keepSomeDirect = true;
+  const Frame frame = open(options).read(0);
+  EXPECT_GT(std::ranges::max(direct.values()), 0.0F);
+  for (int y = 0; y < direct.height(); ++y) {
+    for (int x = 0; x < direct.width(); ++x) {
+      const bool kept = x % 2 == frame.lightOffset.x && y % 2 == frame.lightOffset.y;
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(frame.direct.at(x, y, c), kept ? direct.at(x, y, c) : 0.0F);
+      for (int c = 0; c < 3 && y > 0; ++c) EXPECT_GT(direct.at(x, y, c), 0.0F);
+    }
+  }
 }
 
 TEST_F(SequenceTest, KeepsAShareOfFullLightOnly) {

@@ -331,11 +331,28 @@ TEST_F(SequenceWindows, WrongMapsAreNamed) {
   expectBad("\"Depth\"", R"("Roughness": ["Z"], "Depth")", {"map.json", "\"Specular\"", "\"SpecularAlbedo\""});
   expectBad("\"Depth\"", "\"Deep\"", {"map.json", "\"Deep\"", "ObjectId"});
   expectBad("\"world\"", "\"object\"", {"map.json", "\"normals\"", "\"view\" or \"world\""});
+  expectBad("\"Depth\"", R"("ObjectId": ["Typo.Y"], "Depth")", {"f0.exr", "missing channel Typo.Y"});
   expectBad("[1, -1]", "[1]", {"map.json", "\"motionScale\"", "2 numbers"});
   expectBad("\"channels\"", "\"passes\"", {"map.json", "\"channels\""});
   expectBad("{", "", {"map.json", "JSON"});
+  options.channelMap = writeMap(kMap);
+  options.viewLayer = "ViewLayer";
+  expectRefused({"map.json", "'ViewLayer'", "either --channels or --view-layer"}, options);
+  options.viewLayer.clear();
   options.channelMap = "/nowhere.json";
   expectRefused({"/nowhere.json"}, options);
+}
+
+// Where a reference ends, its albedo does, too.
+TEST_F(SequenceWindows, AReferenceTimesAlbedoMayHaveAnotherDataWindow) {
+  files.writeCameras(0, 0);
+  writeFile("f0.exr", {.parts = {ExrPart{.channels = mappedChannels()}}});
+  writeFile("ref_f0.exr", {.parts = {ExrPart{.channels = mappedChannels(), .data = Box({1, 0}, {3, 1})}}});
+  SequenceOptions options;
+  options.channelMap = writeMap(kMap);
+  const Frame frame = open(options).read(0);
+  EXPECT_TRUE(std::isnan(frame.reference->indirect.at(0, 1, 0)));
+  EXPECT_FALSE(std::isnan(frame.reference->indirect.at(1, 1, 0)));
 }
 
 }  // namespace

@@ -154,6 +154,7 @@ TEST_F(ProgramTest, ReferencesThatNoFrameWouldGetAreRefused) {
   expectUsage({"--reference-frames", "5-6"}, {"--reference-frames", "--reference-spp"});
   expectUsage({"--reference-pixel", "area"}, {"--reference-pixel", "--reference-spp"});
   expectUsage({"--reference-one-square-in", "4"}, {"--reference-one-square-in", "--reference-spp"});
+  expectUsage({"--tracer", "cpu", "--validate"}, {"--validate", "--tracer gpu"});
   expectUsage({"--frames", "0-4", "--reference-spp", "2", "--reference-frames", "5-6"},
               {"--reference-frames 5-6", "--frames 0-4"});
   // A loop over all frames would never end.

@@ -61,8 +61,11 @@ TEST_F(ProgramTest, AWrongCommandLineIsAUsageError) {
   expectFailure(denoise({"--view", "edges", "--method", "flr"}), kUsage, {"--view edges", "flr has no", "history: "});
   expectFailure(denoise({"--view", "history", "--method", "none"}), kUsage, {"--view history", "none has no views"});
   expectFailure(denoise({"--view", "?"}), kUsage, {"--list-views"});
-  expectFailure(denoise({"--exposure", "bright"}), kUsage, {"--exposure bright", "auto"});
+  expectFailure(denoise({"--png", "--exposure", "bright"}), kUsage, {"--exposure bright", "auto"});
+  expectFailure(denoise({"--exposure", "1"}), kUsage, {"--exposure", "--png"});
   expectFailure(denoise({"--direct-light", "none"}), kUsage, {"none"});
+  expectFailure(denoise({"--direct-light", "reference"}), kUsage, {"--direct-light", "--composite"});
+  expectFailure(walr({"graph", "--list-settings", "--json"}), kUsage, {"--list-settings", "--json"});
   expectFailure(denoise({"--light", "every"}), kUsage, {"--light", "every"});
   expectFailure(walr({"graph", "--size", "10"}), kUsage, {"--size 10"});
 }
