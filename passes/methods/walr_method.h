@@ -39,7 +39,7 @@ struct WalrSettings {
     accumulation.visitAmounts(v, kDiffuseLight);
     v.visit({"accumulation.rest-factor",
              "With antilag, and for diffuse light blocks.residual: where the picture is at rest and the light does not "
-             "change, both temporal stages may have so many times as long a history",
+             "change, accumulation may have so many times as long a history, and anti-aliasing once less",
              "", 1.0, 16.0, "measured"},
             restFactor);
     visitMaxSpecularHistory(v, maxSpecularHistory);

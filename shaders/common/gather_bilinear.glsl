@@ -8,13 +8,8 @@ float bilinear(vec4 gathered, vec2 f) {
   return mix(rows.x, rows.y, f.y);
 }
 
-// The red channel between four texels, in single precision, clamped at the borders. `base`: texel with the least
-// coordinates, which may lie anywhere; `f`: position between it and the next ones, 0 to 1.
-float gatherBilinear(sampler2D image, vec2 base, vec2 f) {
-  return bilinear(textureGather(image, (base + 1.0) / vec2(textureSize(image, 0))), f);
-}
-
-// The same of an image that holds the bits of floats.
+// Between four texels of an image that holds the bits of floats, in single precision, clamped at the borders. `base`:
+// texel with the least coordinates, which may lie anywhere; `f`: position between it and the next ones, 0 to 1.
 float gatherBilinear(usampler2D image, vec2 base, vec2 f) {
   return bilinear(uintBitsToFloat(textureGather(image, (base + 1.0) / vec2(textureSize(image, 0)))), f);
 }

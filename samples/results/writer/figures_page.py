@@ -31,7 +31,7 @@ def frames_text(kept):
     judged = first["judged"][1] - first["judged"][0] + 1
     names = listed(f"`{name}`" for name in kept["entries"])
     return (f"Diffuse indirect light of {len(kept['entries'])} scenes of this repository ({names}), {width} x {height}, "
-            f"moving camera, jitter, {first['samples']} sample per pixel (references: {first['reference_samples']}), {judged} judged frames each after "
+            f"moving camera, jitter, {first['samples']} sample per pixel (references: {first['reference_samples']}), errors of {judged} frames each after "
             "8 frames of history")
 
 
