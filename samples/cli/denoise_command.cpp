@@ -426,7 +426,7 @@ void registerDenoise(CLI::App& program) {
   command
       ->add_option(
           "--exposure", options->exposure,
-          "With --png: their exposure in stops: a number, or auto, which maps the log-average luminance to middle grey "
+          "With --png, its exposure in stops: a number, or auto, which maps the log-average luminance to middle grey "
           "(Reinhard et al. 2002) at the first frame and after each camera cut")
       ->needs(png)
       ->type_name("auto|EV")
