@@ -223,7 +223,7 @@ void Description::resize(std::uint32_t width, std::uint32_t height) {
 std::vector<ViewInfo> Description::views() const {
   std::vector<ViewInfo> all;
   for (std::size_t i = 0; i < methods_.size(); ++i) {
-    for (ViewInfo& view : methods_[i]->views({.specular = lightKinds_[i] == WALR_LIGHT_SPECULAR})) {
+    for (ViewInfo& view : methods_[i]->views(inputConventions(i))) {
       view.name = lasting(std::string(kLightNames.at(i).settings).append(view.name));
       all.push_back(std::move(view));
     }

@@ -210,7 +210,7 @@ std::vector<ViewInfo> Denoiser::views(const InputConventions& conventions) {
   const fg::TextureDesc colour{VK_FORMAT_R16G16B16A16_SFLOAT, kExtent};
   fg::Graph graph;
   DenoiserInputs inputs;
-  inputs.lighting = graph.texture("lighting", colour);
+  inputs.lighting = graph.texture("lighting", {colour.format, conventions.light.lightingExtent(kExtent)});
   inputs.depth = graph.texture("depth", {VK_FORMAT_R32_SFLOAT, kExtent});
   inputs.normal = graph.texture("normal", colour);
   inputs.motion = graph.texture("motion", colour);

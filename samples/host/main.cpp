@@ -83,6 +83,7 @@ void runHeadless(const HostOptions& options, float stops, Tracer& tracer, GpuDev
   const fg::Extent extent = options.tracer.extent;
   std::optional<WebpAnimation> animation;
   if (!options.record.empty()) {
+    if (options.record.has_parent_path()) prepareOutputDirectory(options.record.parent_path());
     prepareOutputFile(options.record);
     animation.emplace(static_cast<int>(extent.width), static_cast<int>(extent.height), options.tracer.framesPerSecond);
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -102,8 +103,11 @@ TEST(Registry, PortsHaveTheUsageThatThePlanHas) {
       VkImageUsageFlags imageUsage = port.imageUsage;
       VkBufferUsageFlags bufferUsage = port.bufferUsage;
       const auto addBorder = [&](const fg::ExternalState& state) {
-        imageUsage |= fg::imageUsageIn(state);
-        bufferUsage |= fg::bufferUsageIn(state);
+        if (std::holds_alternative<fg::TextureDesc>(found->desc)) {
+          imageUsage |= fg::imageUsageIn(state);
+        } else {
+          bufferUsage |= fg::bufferUsageIn(state);
+        }
       };
       if (found->acquire) addBorder(*found->acquire);
       if (port.output) addBorder(kComputeHost.outputAfter);

@@ -415,7 +415,8 @@ typedef struct WalrImage {
    * reads. */
   WalrImageState acquire;
   /* After the denoiser: the next use of the image. With VK_IMAGE_LAYOUT_UNDEFINED, inputs keep the layout of `acquire`,
-   * the output is left in GENERAL, and all are ready for any use that follows on the queue. */
+   * the output is left in GENERAL, and all are ready for any use that follows on the queue. An input for which
+   * WalrImageRequirements::required is false stays as it was. */
   WalrImageState release;
 } WalrImage;
 
