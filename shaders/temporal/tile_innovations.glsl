@@ -40,10 +40,7 @@ vec2 storedInnovations(TileInnovations innovations) {
 
 // Whether the camera stands still, but for jitter and rounding. Accumulation tells what is at rest before it.
 bool isCameraAtRest() {
-  const vec4 rays = frame.rayFromPixel, previousRays = frame.previousRayFromPixel;
-  if (rays.xy != previousRays.xy || frame.previousPixelFromPixel != vec2(1.0)) return false;
-  const vec2 shift = (rays.zw - previousRays.zw) / rays.xy - frame.jitterDelta;  // Of the lens, pixels.
-  if (any(greaterThan(abs(shift), vec2(1.0 / 64.0)))) return false;
+  if (frame.rayFromPixel.xy != frame.previousRayFromPixel.xy || frame.previousPixelFromPixel != vec2(1.0)) return false;
   const float rounding = 1e-6;  // Of the host's matrices.
   for (int i = 0; i < 4; ++i) {
     const vec4 moved = abs(frame.previousViewFromView[i] - mat4(1.0)[i]);
