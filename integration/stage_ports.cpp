@@ -45,8 +45,12 @@ Port describe(const fg::GraphDesc& graph, const KnownPorts& known, std::string n
       if (std::ranges::find(port.accesses, access.access) == port.accesses.end()) {
         port.accesses.push_back(access.access);
       }
-      port.imageUsage |= fg::accessInfo(access.access).imageUsage;
-      port.bufferUsage |= fg::accessInfo(access.access).bufferUsage;
+      const fg::AccessInfo& info = fg::accessInfo(access.access);
+      if (port.buffer) {
+        port.bufferUsage |= info.bufferUsage;
+      } else {
+        port.imageUsage |= info.imageUsage;
+      }
     }
   }
   return port;
