@@ -53,7 +53,7 @@ void check(VkResult result, const std::string& action) {
     case VK_ERROR_TOO_MANY_OBJECTS:
       throw OutOfMemory(message + "; try smaller textures", result);
     case VK_ERROR_DEVICE_LOST:
-      throw DeviceLost(message + "; create a new device, and anew what was made with it", result);
+      throw DeviceLost(message + "; create a new device, and again all that was made with the lost one", result);
     default:
       throw Error(message, result);
   }

@@ -367,12 +367,8 @@ void ignoreChangesOfLight(WalrDenoiser denoiser) {
 }
 
 std::vector<std::string> findingsOf(WalrDenoiser denoiser) {
-  std::uint32_t count = 0;
-  require(walr_get_findings(denoiser, &count, nullptr));
-  std::vector<WalrFinding> findings(count);
-  require(walr_get_findings(denoiser, &count, findings.data()));
   std::vector<std::string> names;
-  for (const WalrFinding& finding : findings) {
+  for (const WalrFinding& finding : listed(walr_get_findings, denoiser)) {
     EXPECT_GT(std::strlen(finding.what) * std::strlen(finding.cause) * std::strlen(finding.way_out), 0U);
     names.emplace_back(finding.name);
   }

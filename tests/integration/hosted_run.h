@@ -174,6 +174,16 @@ WalrCamera cameraOf(const glm::mat4& view, const glm::mat4& projection, glm::vec
 /// Antilag stays on, because its passes are part of the method.
 void ignoreChangesOfLight(WalrDenoiser denoiser);
 
+/// What a function such as `walr_get_views` lists.
+template <typename Item>
+std::vector<Item> listed(WalrResult (*get)(WalrDenoiser, std::uint32_t*, Item*), WalrDenoiser denoiser) {
+  std::uint32_t count = 0;
+  require(get(denoiser, &count, nullptr));
+  std::vector<Item> items(count);
+  require(get(denoiser, &count, items.data()));
+  return items;
+}
+
 /// Names of what the linter has found.
 std::vector<std::string> findingsOf(WalrDenoiser denoiser);
 

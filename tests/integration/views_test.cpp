@@ -40,28 +40,21 @@ struct Take {
 };
 
 std::map<std::string, std::uint64_t> countersOf(WalrDenoiser denoiser) {
-  std::uint32_t count = 0;
-  require(walr_get_counters(denoiser, &count, nullptr));
-  std::vector<WalrCounter> counters(count);
-  require(walr_get_counters(denoiser, &count, counters.data()));
   std::map<std::string, std::uint64_t> byName;
-  for (const WalrCounter& counter : counters) EXPECT_TRUE(byName.emplace(counter.name, counter.value).second);
+  for (const WalrCounter& counter : listed(walr_get_counters, denoiser))
+    EXPECT_TRUE(byName.emplace(counter.name, counter.value).second);
   return byName;
 }
 
 class CApiViews : public fg::test::GpuTest {};
 
-std::vector<std::string> listedViews(WalrDenoiser denoiser) {
-  std::uint32_t count = 0;
-  require(walr_get_views(denoiser, &count, nullptr));
-  std::vector<WalrView> views(count);
-  require(walr_get_views(denoiser, &count, views.data()));
-  std::vector<std::string> listed;
-  for (const WalrView& view : views) {
+std::vector<std::string> viewsOf(WalrDenoiser denoiser) {
+  std::vector<std::string> names;
+  for (const WalrView& view : listed(walr_get_views, denoiser)) {
     EXPECT_GT(std::strlen(view.description), 0U);
-    listed.emplace_back(view.name);
+    names.emplace_back(view.name);
   }
-  return listed;
+  return names;
 }
 
 // Light with a sample for 2 x 2 pixels is accumulated on a grid of its own, which offers fewer views.
@@ -70,15 +63,15 @@ TEST_F(CApiViews, ThatAreListedCanBeChosen) {
   options.conventions.struct_size = sizeof(WalrConventions);
   options.conventions.light_group[0] = options.conventions.light_group[1] = 2;
   const HostedRun run(device(), "walr", kSize, options);
-  const std::vector<std::string> listed = listedViews(run.denoiser());
-  EXPECT_GT(listed.size(), 5U);
-  EXPECT_LT(listed.size(), makeDenoiser("walr")->views().size());
-  for (const std::string& name : listed) EXPECT_EQ(walr_set_view(run.denoiser(), name.c_str()), WALR_SUCCESS) << name;
+  const std::vector<std::string> names = viewsOf(run.denoiser());
+  EXPECT_GT(names.size(), 5U);
+  EXPECT_LT(names.size(), makeDenoiser("walr")->views().size());
+  for (const std::string& name : names) EXPECT_EQ(walr_set_view(run.denoiser(), name.c_str()), WALR_SUCCESS) << name;
 }
 
 TEST_F(CApiViews, AreListedForTheCurrentSettings) {
   HostedRun run(device(), "walr", kSize);
-  const auto names = [&] { return listedViews(run.denoiser()); };
+  const auto names = [&] { return viewsOf(run.denoiser()); };
   const auto method = makeDenoiser("walr");
   const auto expected = [&] {
     std::vector<std::string> listed;

@@ -457,7 +457,7 @@ typedef struct WalrFrame {
   const WalrImage* object_id; /* Optional, see WalrDenoiserInfo::object_id_format. */
   uint32_t offset[2];         /* With WalrConventions::rectangle: its first pixel, y down, the same in all images. */
   /* With WALR_FRAME_INDEX_GIVEN: seed of the frame's random numbers, so that a replay of the same frames has the same
-   * result. It must rise by 1 from frame to frame of a denoiser: what takes turns over frames counts with it. Without
+   * result. It must rise by 1 with every frame of a denoiser, because parts of the picture take turns by it. Without
    * the flag it is the number of frames recorded before. */
   uint32_t frame_index;
   uint32_t reserved;
